@@ -1,0 +1,290 @@
+// Lennard-Jones mixtures over all pairs, each pair once: the form for small systems (a few hundred particles), where a
+// neighbour list costs more than the pairs it saves.
+//
+// Rows i are taken four at a time against vectors of columns j >= i, so that one load and one store of the columns serves
+// four rows. A species pair's parameters are constants of its loop and nothing is gathered. Positions are first divided by
+// the box lengths: the nearest image is then one instruction (reduce_to_nearest). In a cubic box everything stays in units
+// of the box length to the end; otherwise separations are scaled back, three multiplications per vector of pairs.
+
+#include <type_traits>
+#include <utility>
+
+#include "kernel_declarations.hpp"
+#include "simd_ops.hpp"
+
+namespace lanescape::kernels::LANESCAPE_ISA {
+namespace {
+
+#define LANESCAPE_INLINE inline __attribute__((always_inline))
+
+constexpr std::size_t row_tile = 4;  // rows that share one load and store of a column vector
+static_assert(slot_padding % row_tile == 0 && slot_padding % lanes == 0);
+
+enum class Output { energy, gradient, stress };
+// Which lanes of a block of rows and columns hold real, distinct pairs: all; those of one mask for the four rows (an
+// incomplete last column vector); or a mask for each row (on the diagonal, or where rows are missing).
+enum class Masking { none, columns, rows };
+
+struct Displacement {
+  Vector x, y, z;
+};
+
+// The potential of one species pair, in the units the loop works in (box lengths if cubic, else sigma).
+struct Potential {
+  Vector c12, c6, twelve_c12, six_c6, cutoff_squared, shift;
+};
+
+// Sums over the pairs in range of r^-6, r^-12 and 1: all that energy and virial need.
+struct PowerSums {
+  Vector sixth = broadcast(0.0), twelfth = broadcast(0.0), count = broadcast(0.0);
+};
+
+struct Box {
+  Displacement length;
+  std::int32_t shells[3];
+};
+
+struct Totals {
+  Vector energy = broadcast(0.0), virial = broadcast(0.0);
+  Vector tensor[6] = {energy, energy, energy, energy, energy, energy};
+};
+
+// Four rows: their positions and the gradient gathered so far.
+struct RowTile {
+  const double *x, *y, *z;  // scaled positions of the rows
+  Displacement gradient[row_tile];
+};
+
+// Where the rows and columns of an edge block are real and distinct.
+struct EdgeLimits {
+  std::size_t first_row, first_column;  // numbers within their species blocks
+  std::size_t column_count;
+  std::size_t row_count;
+  bool same_species;
+};
+
+LANESCAPE_INLINE Vector squared_length(const Displacement& d) {
+  return multiply_add(d.z, d.z, multiply_add(d.y, d.y, d.x * d.x));
+}
+
+// Adds one vector of pairs, given 1/r^2 (zero out of range), to the power sums; returns -u'(r)/r.
+LANESCAPE_INLINE Vector interact(const Potential& u, Vector inverse, Mask in_range, PowerSums& sums) {
+  const Vector sixth = inverse * inverse * inverse;
+  sums.sixth += sixth;
+  sums.twelfth = multiply_add(sixth, sixth, sums.twelfth);
+  sums.count = count_up(sums.count, in_range);
+  return (multiply_add(u.twelve_c12, sixth, broadcast(0.0) - u.six_c6) * sixth) * inverse;
+}
+
+template <Output output>
+LANESCAPE_INLINE void scatter(const Displacement& d, Vector w, Displacement& row, Displacement& column, Totals& totals) {
+  if constexpr (output != Output::energy) {
+    row = {multiply_add(w, d.x, row.x), multiply_add(w, d.y, row.y), multiply_add(w, d.z, row.z)};
+    column = {subtract_product(column.x, w, d.x), subtract_product(column.y, w, d.y), subtract_product(column.z, w, d.z)};
+  }
+  if constexpr (output == Output::stress) {
+    const Vector wx = w * d.x, wy = w * d.y, wz = w * d.z;
+    totals.tensor[0] = multiply_add(wx, d.x, totals.tensor[0]);
+    totals.tensor[1] = multiply_add(wy, d.y, totals.tensor[1]);
+    totals.tensor[2] = multiply_add(wz, d.z, totals.tensor[2]);
+    totals.tensor[3] = multiply_add(wy, d.z, totals.tensor[3]);
+    totals.tensor[4] = multiply_add(wx, d.z, totals.tensor[4]);
+    totals.tensor[5] = multiply_add(wx, d.y, totals.tensor[5]);
+  }
+}
+
+// The next image after the nearest lies across one face of the box: along the axis where that lengthens r^2 least.
+// ImageSearch::two_nearest guarantees that no second axis can bring another one into range.
+template <LengthUnit unit>
+LANESCAPE_INLINE Displacement next_image(const Displacement& d, const Box& box, Vector& r2) {
+  const Vector ax = absolute(d.x), ay = absolute(d.y), az = absolute(d.z);
+  if constexpr (unit == LengthUnit::box) {
+    const Vector largest = maximum(ax, maximum(ay, az));
+    r2 = subtract_product(r2 + broadcast(1.0), broadcast(2.0), largest);
+    const Vector one = broadcast(1.0);
+    return {choose(less(ax, largest), d.x, d.x - with_sign_of(one, d.x)),
+            choose(less(ay, largest), d.y, d.y - with_sign_of(one, d.y)),
+            choose(less(az, largest), d.z, d.z - with_sign_of(one, d.z))};
+  } else {
+    const auto& l = box.length;
+    const auto growth = [](Vector length, Vector a) { return length * (length - (a + a)); };
+    const Vector gx = growth(l.x, ax), gy = growth(l.y, ay), gz = growth(l.z, az);
+    const Vector least = minimum(gx, minimum(gy, gz));
+    r2 = r2 + least;
+    return {choose(less(least, gx), d.x, d.x - with_sign_of(l.x, d.x)),
+            choose(less(least, gy), d.y, d.y - with_sign_of(l.y, d.y)),
+            choose(less(least, gz), d.z, d.z - with_sign_of(l.z, d.z))};
+  }
+}
+
+// Calls body(0) ... body(count - 1) with the number as a constant, so that arrays indexed by it become registers.
+template <std::size_t count, class Body>
+LANESCAPE_INLINE void unrolled(Body body) {
+  [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) {
+    (body(std::integral_constant<std::size_t, k>{}), ...);
+  }(std::make_index_sequence<count>{});
+}
+
+// One vector of pairs in all its images within range.
+template <ImageSearch images, Output output, LengthUnit unit, Masking masking>
+LANESCAPE_INLINE void pair_vector(const Displacement& nearest, const Box& box, const Potential& u, Mask valid, PowerSums& sums,
+                                  Displacement& row, Displacement& column, Totals& totals) {
+  const auto in_range = [&](Vector r2) __attribute__((always_inline)) {
+    const Mask in = less(r2, u.cutoff_squared);
+    if constexpr (masking != Masking::none) return both(in, valid);
+    return in;
+  };
+  const auto add = [&](const Displacement& d, Vector r2, Mask in) __attribute__((always_inline)) {
+    scatter<output>(d, interact(u, masked_reciprocal(in, r2), in, sums), row, column, totals);
+  };
+  if constexpr (images == ImageSearch::lattice) {
+    for (std::int32_t a = -box.shells[0]; a <= box.shells[0]; ++a)
+      for (std::int32_t b = -box.shells[1]; b <= box.shells[1]; ++b)
+        for (std::int32_t c = -box.shells[2]; c <= box.shells[2]; ++c) {
+          const Displacement d{multiply_add(broadcast(a), box.length.x, nearest.x),
+                               multiply_add(broadcast(b), box.length.y, nearest.y),
+                               multiply_add(broadcast(c), box.length.z, nearest.z)};
+          const Vector r2 = squared_length(d);
+          add(d, r2, in_range(r2));
+        }
+  } else {
+    Vector r2 = squared_length(nearest);
+    add(nearest, r2, in_range(r2));
+    if constexpr (images == ImageSearch::two_nearest) {
+      const Displacement d = next_image<unit>(nearest, box, r2);
+      const Mask in = in_range(r2);
+      if (any(in)) add(d, r2, in);
+    }
+  }
+}
+
+LANESCAPE_INLINE Mask valid_in_row(const EdgeLimits& limits, std::size_t column, std::size_t row) {
+  const auto before = [&](std::size_t n) { return lanes_below(static_cast<std::ptrdiff_t>(n) - static_cast<std::ptrdiff_t>(column)); };
+  if (row >= limits.row_count) return lanes_below(0);
+  return limits.same_species ? excluding(before(limits.column_count), before(row + 1)) : before(limits.column_count);
+}
+
+// Four rows against the column vectors [first, last) of one species block, whose scaled positions start at s and gradient at
+// g, `slots` apart per axis.
+template <ImageSearch images, Output output, LengthUnit unit, Masking masking>
+LANESCAPE_INLINE void column_loop(std::size_t first, std::size_t last, const EdgeLimits& limits, const double* s, double* g,
+                                  std::size_t slots, const Box& box, const Potential& u, RowTile& rows, PowerSums& sums,
+                                  Totals& totals) {
+  for (std::size_t j = first; j < last; j += lanes) {
+    const double* sj = s + j;
+    double* gj = g + j;
+    const Displacement column{load(sj), load(sj + slots), load(sj + 2 * slots)};
+    Displacement pull{broadcast(0.0), broadcast(0.0), broadcast(0.0)};
+    if constexpr (output != Output::energy) pull = {load(gj), load(gj + slots), load(gj + 2 * slots)};
+    const Mask in_block = lanes_below(static_cast<std::ptrdiff_t>(limits.column_count) - static_cast<std::ptrdiff_t>(j));
+    unrolled<row_tile>([&](auto r) __attribute__((always_inline)) {
+      const Mask valid = masking == Masking::rows ? valid_in_row(limits, j, limits.first_row + r) : in_block;
+      Displacement d{reduce_to_nearest(column.x - broadcast(rows.x[r])), reduce_to_nearest(column.y - broadcast(rows.y[r])),
+                     reduce_to_nearest(column.z - broadcast(rows.z[r]))};
+      if constexpr (unit == LengthUnit::sigma) d = {d.x * box.length.x, d.y * box.length.y, d.z * box.length.z};
+      pair_vector<images, output, unit, masking>(d, box, u, valid, sums, rows.gradient[r], pull, totals);
+    });
+    if constexpr (output != Output::energy) {
+      store(gj, pull.x);
+      store(gj + slots, pull.y);
+      store(gj + 2 * slots, pull.z);
+    }
+  }
+}
+
+template <ImageSearch images, Output output, LengthUnit unit>
+LANESCAPE_INLINE void tile_against_block(const LjInput& in, const SpeciesBlock& block, const EdgeLimits& limits, double* gradient, const Box& box,
+                                         const Potential& u, RowTile& rows, Totals& totals) {
+  PowerSums sums;
+  const auto loop = [&]<Masking masking>(std::size_t first, std::size_t last) __attribute__((always_inline)) {
+    column_loop<images, output, unit, masking>(first, last, limits, in.scratch + block.begin, gradient + block.begin, in.slots, box,
+                                                u, rows, sums, totals);
+  };
+  const std::size_t padded = (block.count + lanes - 1) / lanes * lanes;
+  const std::size_t whole = block.count / lanes * lanes;
+  const std::size_t past_diagonal = (limits.first_row + row_tile + lanes - 1) / lanes * lanes;
+  std::size_t clear = limits.same_species ? past_diagonal : 0;
+  if (limits.first_row + row_tile > limits.row_count || clear > whole) clear = padded;
+  loop.template operator()<Masking::rows>(limits.first_column, clear);
+  loop.template operator()<Masking::none>(clear, whole);
+  loop.template operator()<Masking::columns>(clear > whole ? clear : whole, padded);
+  totals.energy += multiply_add(u.c12, sums.twelfth, broadcast(0.0) - multiply_add(u.c6, sums.sixth, u.shift * sums.count));
+  totals.virial += multiply_add(u.twelve_c12, sums.twelfth, broadcast(0.0) - u.six_c6 * sums.sixth);
+}
+
+Potential broadcast_potential(const LjPair& p) {
+  return {broadcast(p.c12),        broadcast(p.c6),  broadcast(12.0 * p.c12), broadcast(6.0 * p.c6), broadcast(p.cutoff_squared),
+          broadcast(p.shift)};
+}
+
+template <Output output, LengthUnit unit>
+void all_pairs(const LjInput& in, double* gradient, LjOutput& out) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Vector inverse_length = broadcast(1.0 / in.box[axis]);
+    for (std::size_t i = axis * in.slots; i < (axis + 1) * in.slots; i += lanes) {
+      store(in.scratch + i, load(in.positions + i) * inverse_length);
+      if constexpr (output != Output::energy) store(gradient + i, broadcast(0.0));
+    }
+  }
+  const Box box{{broadcast(in.box[0]), broadcast(in.box[1]), broadcast(in.box[2])}, {in.shells[0], in.shells[1], in.shells[2]}};
+  Totals totals;
+  for (std::size_t a = 0; a < in.block_count; ++a) {
+    const SpeciesBlock& row_block = in.blocks[a];
+    for (std::size_t i = 0; i < row_block.count; i += row_tile) {
+      const double* x = in.scratch + row_block.begin + i;
+      const Vector zero = broadcast(0.0);
+      const Displacement none{zero, zero, zero};
+      RowTile rows{x, x + in.slots, x + 2 * in.slots, {none, none, none, none}};
+      for (std::size_t b = a; b < in.block_count; ++b) {
+        const LjPair& pair = in.pairs[a * in.block_count + b];
+        const Potential u = broadcast_potential(pair);
+        const bool same = a == b;
+        const EdgeLimits limits{i, same ? i / lanes * lanes : 0, in.blocks[b].count, row_block.count, same};
+        const auto run = [&]<ImageSearch images>() __attribute__((always_inline)) {
+          tile_against_block<images, output, unit>(in, in.blocks[b], limits, gradient, box, u, rows, totals);
+        };
+        if (pair.images == ImageSearch::nearest) run.template operator()<ImageSearch::nearest>();
+        if (pair.images == ImageSearch::two_nearest) run.template operator()<ImageSearch::two_nearest>();
+        if constexpr (unit == LengthUnit::sigma)
+          if (pair.images == ImageSearch::lattice) run.template operator()<ImageSearch::lattice>();
+      }
+      if constexpr (output != Output::energy) {
+        double* g = gradient + row_block.begin + i;
+        const auto& t = rows.gradient;
+        add_lane_sums(g, t[0].x, t[1].x, t[2].x, t[3].x);
+        add_lane_sums(g + in.slots, t[0].y, t[1].y, t[2].y, t[3].y);
+        add_lane_sums(g + 2 * in.slots, t[0].z, t[1].z, t[2].z, t[3].z);
+      }
+    }
+  }
+  if constexpr (output != Output::energy && unit == LengthUnit::box) {
+    const Vector inverse_length = broadcast(1.0 / in.box[0]);
+    for (std::size_t i = 0; i < 3 * in.slots; i += lanes) store(gradient + i, load(gradient + i) * inverse_length);
+  }
+  out.energy = sum_lanes(totals.energy);
+  out.virial = sum_lanes(totals.virial);
+  if constexpr (output == Output::stress)
+    for (std::size_t k = 0; k < 6; ++k) out.virial_tensor[k] = sum_lanes(totals.tensor[k]);
+}
+
+template <Output output>
+void any_box(const LjInput& in, double* gradient, LjOutput& out) {
+  if (in.unit == LengthUnit::box)
+    all_pairs<output, LengthUnit::box>(in, gradient, out);
+  else
+    all_pairs<output, LengthUnit::sigma>(in, gradient, out);
+}
+
+}  // namespace
+
+double lj_energy(const LjInput& in) noexcept {
+  LjOutput out;
+  any_box<Output::energy>(in, nullptr, out);
+  return out.energy;
+}
+
+void lj_gradient(const LjInput& in, double* gradient, LjOutput& out) noexcept { any_box<Output::gradient>(in, gradient, out); }
+
+void lj_stress(const LjInput& in, double* gradient, LjOutput& out) noexcept { any_box<Output::stress>(in, gradient, out); }
+
+}  // namespace lanescape::kernels::LANESCAPE_ISA

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <lanescape/version.h>
+
+// What other programs link against. Reduced units: lengths in sigma, energies in epsilon, k_B = 1.
+namespace lanescape {
+
+// The library's version, e.g. "0.1.0".
+const char* version() noexcept;
+// Instruction sets the kernels can use on this processor, best last.
+std::vector<std::string> instruction_sets();
+
+// The potential energy of a Lennard-Jones mixture in a periodic orthorhombic box. Not thread-safe: one object per thread.
+class LennardJonesPotential {
+ public:
+  struct Options {
+    std::string model = "kob-andersen";  // or "lennard-jones"
+    double cutoff = 2.5;                 // in units of sigma_ab
+    std::string truncation = "shifted";  // or "plain", "tail"
+    std::string images = "all";          // or "minimum"
+    std::string isa = "auto";            // or a name from instruction_sets()
+  };
+
+  // `species[i]` is 0 or 1 for Kob-Andersen's A and B, 0 for the one component of "lennard-jones"; `box` holds edge lengths.
+  // Throws std::runtime_error with one line saying what is wrong and what is allowed.
+  LennardJonesPotential(std::span<const int> species, const std::array<double, 3>& box, const Options& options);
+  ~LennardJonesPotential();
+  LennardJonesPotential(LennardJonesPotential&&) noexcept;
+  LennardJonesPotential& operator=(LennardJonesPotential&&) noexcept;
+
+  // Positions x0 y0 z0 x1 ..., 3N of them, wrapped or not. Throws std::runtime_error if the length is not 3N.
+  double energy(std::span<const double> positions);
+  // Also forces, -dV/dr, in the order of the positions, and optionally the virial sum r.f.
+  double energy_and_forces(std::span<const double> positions, std::span<double> forces, double* virial = nullptr);
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace lanescape

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/box.hpp"
+
+namespace lanescape {
+
+// Particles in the user's order. Positions may be unwrapped: only separations are periodic.
+struct Configuration {
+  Box box;
+  std::vector<int> species;       // N indices into the model's species
+  std::vector<double> positions;  // 3N: x0 y0 z0 x1 ... [sigma]
+
+  std::size_t size() const { return species.size(); }
+};
+
+}  // namespace lanescape

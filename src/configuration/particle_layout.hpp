@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/aligned_array.hpp"
+#include "views.hpp"
+
+namespace lanescape {
+
+// The library's own order of particles: species in blocks, each padded to whole vectors, coordinates as three arrays of
+// `slots` doubles in one AlignedArray (all x, all y, all z). Padding slots hold zeros. Everything public is in the user's
+// order; this is the one place that translates.
+class ParticleLayout {
+ public:
+  ParticleLayout(const std::vector<int>& species, std::size_t species_count);
+
+  std::size_t size() const { return slot_of_.size(); }     // N
+  std::size_t slots() const { return slots_; }             // padded
+  std::size_t dimension() const { return 3 * slots_; }     // length of every coordinate array
+  const std::vector<kernels::SpeciesBlock>& blocks() const { return blocks_; }
+  std::size_t slot_of(std::size_t particle) const { return slot_of_[particle]; }
+
+  // From 3N interleaved user coordinates, and back.
+  AlignedArray to_slots(std::span<const double> interleaved) const;
+  std::vector<double> to_user(const AlignedArray& coordinates) const;
+
+ private:
+  std::vector<std::size_t> slot_of_;
+  std::vector<kernels::SpeciesBlock> blocks_;
+  std::size_t slots_ = 0;
+};
+
+}  // namespace lanescape

@@ -1,0 +1,191 @@
+#include "dynamics/end_points.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace lanescape {
+
+void EndPointOptions::make_quick() {
+  melt_steps = 20'000;
+  cooling_steps = 50'000;
+  check_steps = 50'000;
+  check_tolerance = 0.02;
+  settle_steps = 50'000;
+  between_steps = 20'000;
+}
+
+void EndPointOptions::check() const {
+  const auto positive = [](const char* what, double value) {
+    if (!(value > 0.0) || !std::isfinite(value)) throw_bad_input(fmt::format("{} {} is not allowed: it must be finite and above 0", what, value));
+  };
+  positive("temperature", temperature);
+  positive("melting temperature", melt_temperature);
+  positive("distance", distance);
+  positive("time step", time_step);
+  positive("temperature tolerance", check_tolerance);
+  const auto at_least_one = [](const char* what, std::uint64_t value) {
+    if (value == 0) throw_bad_input(fmt::format("{} must be at least 1", what));
+  };
+  at_least_one("number of pairs", pairs);
+  at_least_one("rescale interval", rescale_interval);
+  at_least_one("check interval", check_interval);
+  if (time_step > 0.02) throw_bad_input(fmt::format("time step {} is not allowed: at most 0.02, or energy is not conserved", time_step));
+  if (check_steps < check_interval)
+    throw_bad_input(fmt::format("check steps {} must be at least the check interval {}", check_steps, check_interval));
+}
+
+void EndPointPair::exchange(Archive& archive) {
+  archive.field("start", start);
+  archive.field("finish", finish);
+  archive.field("distance", distance);
+  archive.field("steps", steps);
+}
+
+double end_point_distance(const AlignedArray& a, const AlignedArray& b, const ParticleLayout& layout, const std::vector<double>& masses,
+                          std::optional<int> species) {
+  std::array<double, 3> drift{};
+  double mass = 0.0;
+  const auto for_each_block = [&](auto action) {
+    for (std::size_t s = 0; s < layout.blocks().size(); ++s) action(s, layout.blocks()[s]);
+  };
+  for_each_block([&](std::size_t s, const kernels::SpeciesBlock& block) {
+    mass += masses[s] * static_cast<double>(block.count);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t k = axis * layout.slots() + block.begin, end = k + block.count; k < end; ++k) drift[axis] += masses[s] * (b[k] - a[k]);
+  });
+  double squared = 0.0;
+  for_each_block([&](std::size_t s, const kernels::SpeciesBlock& block) {
+    if (species && *species != static_cast<int>(s)) return;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t k = axis * layout.slots() + block.begin, end = k + block.count; k < end; ++k) {
+        const double d = b[k] - a[k] - drift[axis] / mass;
+        squared += d * d;
+      }
+  });
+  return std::sqrt(squared);
+}
+
+EndPointGenerator::EndPointGenerator(SoftLandscape& landscape, const LennardJonesModel& model, const ParticleLayout& layout,
+                                     AlignedArray start, const EndPointOptions& options)
+    : landscape_(&landscape), layout_(&layout), options_(options), verlet_(landscape, model, layout, std::move(start), options.time_step) {
+  options_.check();
+  for (const Species& s : model.species) masses_.push_back(s.mass);
+  verlet_.draw_velocities(options_.melt_temperature, options_.seed);
+}
+
+const char* EndPointGenerator::name(Phase phase) {
+  switch (phase) {
+    case Phase::melt: return "melting";
+    case Phase::cool: return "cooling";
+    case Phase::check: return "temperature check";
+    case Phase::settle: return "settling";
+    case Phase::pair: return "towards the far end point";
+    case Phase::between: return "between pairs";
+    case Phase::done: return "done";
+    case Phase::temperature_not_held: return "temperature not held";
+    case Phase::distance_not_reached: return "distance not reached";
+  }
+  return "";
+}
+
+std::uint64_t EndPointGenerator::phase_total() const {
+  switch (phase_) {
+    case Phase::melt: return options_.melt_steps;
+    case Phase::cool: return options_.cooling_steps;
+    case Phase::check: return options_.check_steps;
+    case Phase::settle: return options_.settle_steps;
+    case Phase::between: return options_.between_steps;
+    default: return 0;
+  }
+}
+
+double EndPointGenerator::distance_so_far() const {
+  return phase_ == Phase::pair ? end_point_distance(pair_start_, verlet_.position(), *layout_, masses_, options_.distance_species) : 0.0;
+}
+
+void EndPointGenerator::enter(Phase phase) {
+  phase_ = phase;
+  phase_start_ = verlet_.steps();
+  // A repeated check corrects by what the last one found on average; the temperature of the moment fluctuates too much.
+  if (phase == Phase::check && checks_ > 0)
+    verlet_.rescale_to(verlet_.temperature() * options_.temperature / checked_temperature_);
+  else if (phase == Phase::cool || phase == Phase::check)
+    verlet_.rescale_to(options_.temperature);
+  if (phase == Phase::check) {
+    check_sum_ = 0.0;
+    check_samples_ = 0;
+    ++checks_;
+  }
+  if (phase == Phase::pair) pair_start_ = verlet_.position();
+}
+
+void EndPointGenerator::sample_temperature() {
+  if (phase_done() % options_.check_interval != 0) return;
+  if (phase_ == Phase::check) {
+    check_sum_ += verlet_.temperature();
+    ++check_samples_;
+  } else {
+    mean_sum_ += verlet_.temperature();
+    ++mean_samples_;
+  }
+}
+
+void EndPointGenerator::step() {
+  verlet_.step();
+  const std::uint64_t done = phase_done();
+  if (phase_ == Phase::melt || phase_ == Phase::cool) {
+    if (done % options_.rescale_interval == 0) verlet_.rescale_to(phase_ == Phase::melt ? options_.melt_temperature : options_.temperature);
+    if (done >= phase_total()) enter(phase_ == Phase::melt ? Phase::cool : Phase::check);
+    return;
+  }
+  sample_temperature();
+  if (phase_ == Phase::check) {
+    if (done < options_.check_steps) return;
+    checked_temperature_ = check_sum_ / static_cast<double>(check_samples_);
+    if (std::fabs(checked_temperature_ - options_.temperature) < options_.check_tolerance)
+      enter(options_.settle_steps > 0 ? Phase::settle : Phase::pair);
+    else
+      enter(checks_ < options_.max_checks ? Phase::check : Phase::temperature_not_held);
+  } else if (phase_ == Phase::settle || phase_ == Phase::between) {
+    if (done >= phase_total()) enter(Phase::pair);
+  } else if (phase_ == Phase::pair) {
+    // Leaving out the drift, or particles, only shortens the distance: the vector kernel tells when a closer look is due.
+    const bool near = landscape_->algebra().distance(pair_start_, verlet_.position()) >= options_.distance;
+    const double distance = near ? distance_so_far() : 0.0;
+    if (distance >= options_.distance) {
+      pairs_.push_back({pair_start_, verlet_.position(), distance, done});
+      const Phase next = options_.between_steps > 0 ? Phase::between : Phase::pair;
+      enter(pairs_.size() < options_.pairs ? next : Phase::done);
+    } else if (done >= options_.max_pair_steps) {
+      enter(Phase::distance_not_reached);
+    }
+  }
+}
+
+void EndPointGenerator::exchange(Archive& archive) {
+  verlet_.exchange(archive);
+  std::uint64_t phase = static_cast<std::uint64_t>(phase_), pairs = pairs_.size();
+  archive.field("phase", phase);
+  phase_ = static_cast<Phase>(phase);
+  archive.field("phase_start", phase_start_);
+  archive.field("checks", checks_);
+  archive.field("check_samples", check_samples_);
+  archive.field("check_sum", check_sum_);
+  archive.field("mean_samples", mean_samples_);
+  archive.field("mean_sum", mean_sum_);
+  archive.field("checked_temperature", checked_temperature_);
+  archive.field("pair_start", pair_start_);
+  archive.field("pairs", pairs);
+  pairs_.resize(pairs);
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    archive.enter(fmt::format("pair{:04}", k + 1));
+    pairs_[k].exchange(archive);
+    archive.leave();
+  }
+}
+
+}  // namespace lanescape

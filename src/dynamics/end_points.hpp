@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/archive.hpp"
+#include "dynamics/velocity_verlet.hpp"
+
+namespace lanescape {
+
+// The source's protocol ([G] 3.1.2.2): melt hot, cool, check that the temperature holds without a thermostat, settle, then
+// collect pairs of configurations a given distance apart. Counts are molecular dynamics steps.
+struct EndPointOptions {
+  double temperature = 1.0;              // [epsilon/k_B]
+  double distance = 0.0;                 // DeltaR between the ends of a pair [sigma]
+  std::optional<int> distance_species;   // count only this species' motion towards the distance
+  std::uint64_t pairs = 1;
+  double time_step = 0.001;              // [sigma sqrt(m/epsilon)]
+  double melt_temperature = 5.0;
+  std::uint64_t melt_steps = 200'000;
+  std::uint64_t cooling_steps = 1'000'000;
+  std::uint64_t rescale_interval = 1'000;  // while melting and cooling
+  std::uint64_t check_steps = 1'000'000;
+  std::uint64_t check_interval = 100;      // steps between temperature samples of the check
+  double check_tolerance = 0.005;          // |<T> - T|; otherwise rescale and check again
+  std::uint64_t max_checks = 100;
+  std::uint64_t settle_steps = 1'000'000;
+  std::uint64_t between_steps = 100'000;   // between pairs
+  std::uint64_t max_pair_steps = 1'000'000'000;
+  std::uint64_t seed = 1;
+
+  // The same protocol with counts small enough to try things out.
+  void make_quick();
+  // Throws Error(bad_input) naming the option that is out of range.
+  void check() const;
+};
+
+// Two configurations of one trajectory, unwrapped, in the layout's order.
+struct EndPointPair {
+  AlignedArray start, finish;
+  double distance = 0.0;       // |R_f - R_i| without the motion of the centre of mass [sigma]
+  std::uint64_t steps = 0;     // from one end to the other
+  void exchange(Archive& archive);
+};
+
+// Runs the protocol one step at a time; all its state can be archived between steps.
+class EndPointGenerator {
+ public:
+  enum class Phase : std::uint64_t { melt, cool, check, settle, pair, between, done, temperature_not_held, distance_not_reached };
+
+  // Draws the velocities. `landscape` and `layout` must outlive this object.
+  EndPointGenerator(SoftLandscape& landscape, const LennardJonesModel& model, const ParticleLayout& layout, AlignedArray start,
+                    const EndPointOptions& options);
+
+  void step();
+  bool ended() const { return phase_ >= Phase::done; }
+  Phase phase() const { return phase_; }
+  static const char* name(Phase phase);
+  // Steps of the phase that are done, and how many it has (0 where that is not known).
+  std::uint64_t phase_done() const { return verlet_.steps() - phase_start_; }
+  std::uint64_t phase_total() const;
+  bool equilibrated() const { return phase_ >= Phase::settle && phase_ <= Phase::done; }
+
+  const VelocityVerlet& verlet() const { return verlet_; }
+  const std::vector<EndPointPair>& pairs() const { return pairs_; }
+  // Mean temperature of the last check, and since the check was passed.
+  double checked_temperature() const { return checked_temperature_; }
+  double mean_temperature() const { return mean_samples_ == 0 ? checked_temperature_ : mean_sum_ / static_cast<double>(mean_samples_); }
+  double distance_so_far() const;
+
+  void exchange(Archive& archive);
+
+ private:
+  void enter(Phase phase);
+  void sample_temperature();
+
+  const SoftLandscape* landscape_;
+  const ParticleLayout* layout_;
+  std::vector<double> masses_;
+  EndPointOptions options_;
+  VelocityVerlet verlet_;
+  Phase phase_ = Phase::melt;
+  std::uint64_t phase_start_ = 0;
+  std::uint64_t checks_ = 0, check_samples_ = 0, mean_samples_ = 0;
+  double check_sum_ = 0.0, mean_sum_ = 0.0, checked_temperature_ = 0.0;
+  AlignedArray pair_start_;
+  std::vector<EndPointPair> pairs_;
+};
+
+// |b - a| over all particles, or those of one species, less the motion of the centre of mass [sigma].
+double end_point_distance(const AlignedArray& a, const AlignedArray& b, const ParticleLayout& layout, const std::vector<double>& masses,
+                          std::optional<int> species);
+
+}  // namespace lanescape

@@ -1,0 +1,106 @@
+#include "dynamics/velocity_verlet.hpp"
+
+#include <cmath>
+
+#include "core/random.hpp"
+
+namespace lanescape {
+
+VelocityVerlet::VelocityVerlet(SoftLandscape& landscape, const LennardJonesModel& model, const ParticleLayout& layout,
+                               AlignedArray position, double time_step)
+    : landscape_(&landscape),
+      layout_(&layout),
+      position_(std::move(position)),
+      velocity_(position_.size(), 0.0),
+      gradient_(position_.size(), 0.0),
+      time_step_(time_step) {
+  const std::size_t padding = kernels::slot_padding;
+  bool equal = true;
+  for (const Species& s : model.species) {
+    masses_.push_back(s.mass);
+    equal = equal && s.mass == model.species.front().mass;
+  }
+  if (equal) {
+    segments_.push_back({0, layout.dimension(), masses_.front()});
+  } else {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t s = 0; s < layout.blocks().size(); ++s) {
+        const auto& block = layout.blocks()[s];
+        segments_.push_back({axis * layout.slots() + block.begin, (block.count + padding - 1) / padding * padding, masses_[s]});
+      }
+  }
+  potential_ = landscape_->energy_and_gradient(position_, gradient_);
+}
+
+void VelocityVerlet::draw_velocities(double temperature, std::uint64_t seed) {
+  const CounterRandom random(seed, RandomStream::velocities);
+  std::size_t particle = 0;
+  for (std::size_t s = 0; s < layout_->blocks().size(); ++s) {
+    const auto& block = layout_->blocks()[s];
+    for (std::size_t k = block.begin; k < block.begin + block.count; ++k, ++particle)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        velocity_[axis * layout_->slots() + k] = std::sqrt(temperature / masses_[s]) *
+                                                 random.normal(0, static_cast<std::uint32_t>(particle), static_cast<std::uint32_t>(axis));
+  }
+  rescale_to(temperature);
+}
+
+void VelocityVerlet::remove_momentum() {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double momentum = 0.0, mass = 0.0;
+    const auto for_each = [&](auto action) {
+      for (std::size_t s = 0; s < layout_->blocks().size(); ++s) {
+        const auto& block = layout_->blocks()[s];
+        for (std::size_t k = block.begin; k < block.begin + block.count; ++k) action(velocity_[axis * layout_->slots() + k], masses_[s]);
+      }
+    };
+    for_each([&](double v, double m) {
+      momentum += m * v;
+      mass += m;
+    });
+    for_each([&](double& v, double) { v -= momentum / mass; });
+  }
+}
+
+void VelocityVerlet::rescale_to(double temperature) {
+  remove_momentum();
+  const double now = this->temperature();
+  if (now == 0.0) return;
+  const double factor = std::sqrt(temperature / now);
+  for (double& v : velocity_) v *= factor;
+}
+
+void VelocityVerlet::kick(double time) {
+  for (const Segment& segment : segments_)
+    landscape_->algebra().add_scaled(velocity_, -time / segment.mass, gradient_, segment.begin, segment.length);
+}
+
+void VelocityVerlet::step() {
+  kick(0.5 * time_step_);
+  landscape_->algebra().axpy(position_, position_, time_step_, velocity_);
+  potential_ = landscape_->energy_and_gradient(position_, gradient_);
+  kick(0.5 * time_step_);
+  ++steps_;
+}
+
+double VelocityVerlet::kinetic_energy() const {
+  double twice = 0.0;
+  for (const Segment& segment : segments_)
+    twice += segment.mass * landscape_->algebra().dot(velocity_, velocity_, segment.begin, segment.length);
+  return 0.5 * twice;
+}
+
+double VelocityVerlet::temperature() const { return 2.0 * kinetic_energy() / (3.0 * static_cast<double>(layout_->size())); }
+
+void VelocityVerlet::reverse_velocities() {
+  for (double& v : velocity_) v = -v;
+}
+
+void VelocityVerlet::exchange(Archive& archive) {
+  archive.field("position", position_);
+  archive.field("velocity", velocity_);
+  archive.field("steps", steps_);
+  if (archive.reading()) potential_ = landscape_->energy_and_gradient(position_, gradient_);
+}
+
+}  // namespace lanescape

@@ -1,0 +1,126 @@
+#include "io/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace lanescape {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string reason(int error) { return std::generic_category().message(error); }
+
+[[noreturn]] void refuse_writing(const fs::path& target, const std::string& why) {
+  throw_bad_input(fmt::format("cannot write {}: {}; a writable place with free space is needed", target.string(), why));
+}
+
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  int get() const { return fd_; }
+  bool valid() const { return fd_ >= 0; }
+
+ private:
+  int fd_;
+};
+
+fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
+
+// Some file systems cannot sync this kind of object and say EINVAL; there is nothing more to do for them.
+void sync_to_disk(const fs::path& path, int flags, const fs::path& target) {
+  const Descriptor descriptor(::open(path.c_str(), flags | O_CLOEXEC));
+  if (!descriptor.valid() || (::fsync(descriptor.get()) != 0 && errno != EINVAL)) refuse_writing(target, reason(errno));
+}
+
+struct Created {
+  fs::path path;
+  int error;  // of the system; 0: the file is there, and empty
+};
+
+// Exclusive creation: another process, or the remains of one that was killed, keeps its own file. The usual mode and umask
+// apply, which mkstemp would not give.
+Created create_in(const fs::path& folder) {
+  static std::atomic<unsigned> counter{0};
+  for (;;) {
+    fs::path candidate = folder / fmt::format(".lanescape-{}-{}.tmp", ::getpid(), counter++);
+    const Descriptor descriptor(::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    if (descriptor.valid()) return {std::move(candidate), 0};
+    if (errno != EEXIST) return {{}, errno};
+  }
+}
+
+}  // namespace
+
+TemporaryFile::TemporaryFile(fs::path target) : target_(std::move(target)) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(target_, ignored);
+  // A rename would replace a device or fail late on a folder.
+  if (target_.empty() || (fs::exists(status) && !fs::is_regular_file(status)))
+    refuse_writing(target_.empty() ? "''" : target_, "it is not the name of a regular file");
+  Created created = create_in(folder_of(target_));
+  if (created.error != 0) refuse_writing(target_, reason(created.error));
+  temporary_ = std::move(created.path);
+}
+
+TemporaryFile::~TemporaryFile() {
+  std::error_code ignored;
+  if (!committed_) fs::remove(temporary_, ignored);
+}
+
+void TemporaryFile::write(const std::function<void(std::ostream&)>& writer) {
+  errno = 0;
+  std::ofstream out(temporary_, std::ios::binary | std::ios::trunc);
+  if (out) writer(out);
+  out.close();
+  if (!out) refuse_writing(target_, errno != 0 ? reason(errno) : "the stream failed");
+}
+
+void TemporaryFile::commit() {
+  sync_to_disk(temporary_, O_WRONLY, target_);
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) refuse_writing(target_, reason(errno));
+  committed_ = true;
+  sync_to_disk(folder_of(target_), O_RDONLY | O_DIRECTORY, target_);
+}
+
+void write_atomically(const fs::path& target, const std::function<void(std::ostream&)>& writer) {
+  TemporaryFile file(target);
+  file.write(writer);
+  file.commit();
+}
+
+void prepare_output_folder(const fs::path& folder) {
+  const auto refuse = [&](const std::string& why) {
+    throw_bad_input(
+        fmt::format("output folder '{}' cannot be used: {}; a folder in which files can be made is needed", folder.string(), why));
+  };
+  if (folder.empty()) refuse("the name is empty");
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) refuse(error.message());
+  if (!fs::is_directory(folder, error)) refuse("it is not a folder");
+  const Created probe = create_in(folder);
+  if (probe.error != 0) refuse(reason(probe.error));
+  // A full disk or a spent quota shows only when a byte is written.
+  std::ofstream out(probe.path, std::ios::binary);
+  out.put('\n');
+  out.close();
+  const bool written = !out.fail();
+  fs::remove(probe.path, error);
+  if (!written || error) refuse("a file made there cannot be written and removed");
+}
+
+}  // namespace lanescape

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "configuration/configuration.hpp"
+#include "configuration/lennard_jones_model.hpp"
+
+namespace lanescape {
+
+// One frame of an extended XYZ file, https://github.com/libAtoms/extxyz.
+struct Frame {
+  Configuration configuration;
+  std::map<std::string, std::string> info;  // the comment line's other pairs, as text; a bare word has the value "T"
+};
+
+// Reads frame by frame and holds one frame in memory. Strict: whatever could be misread throws Error(bad_input) with file and
+// line. Wanted are an orthorhombic Lattice, Properties with species:S:1 and pos:R:3 (other columns are skipped), pbc "T T T"
+// or none, the model's species and finite coordinates within 10^6 box lengths; positions may be unwrapped.
+class ExtendedXyzReader {
+ public:
+  ExtendedXyzReader(std::filesystem::path path, const LennardJonesModel& model);
+  // The next frame; nothing at the end of the file. A file without any frame is refused.
+  std::optional<Frame> next();
+
+ private:
+  std::optional<std::string_view> next_line();
+  std::size_t line_of_count();
+  [[noreturn]] void refuse(const std::string& what_and_allowed) const;
+
+  std::filesystem::path path_;
+  LennardJonesModel model_;
+  std::ifstream in_;
+  std::vector<char> buffer_;
+  std::size_t line_ = 0;
+  std::size_t frames_ = 0;
+};
+
+// The frame of a file that must hold exactly one.
+Frame read_single_frame(const std::filesystem::path& path, const LennardJonesModel& model);
+// All frames of a file that must hold at least one.
+std::vector<Frame> read_frames(const std::filesystem::path& path, const LennardJonesModel& model);
+
+// Writes one frame with the shortest digits that read back as the same bits. `info` must not use the names Lattice, Properties
+// and pbc. `forces`, where given, are 3N numbers in the particles' order and make the column forces:R:3 [epsilon/sigma].
+void write_frame(std::ostream& out, const Configuration& configuration, const LennardJonesModel& model,
+                 const std::map<std::string, std::string>& info, const std::vector<double>* forces = nullptr);
+
+}  // namespace lanescape

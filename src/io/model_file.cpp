@@ -1,0 +1,249 @@
+#include "io/model_file.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <initializer_list>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace lanescape {
+namespace {
+
+constexpr std::size_t largest_file = std::size_t{1} << 20;  // [bytes]
+constexpr std::size_t most_species = 64;
+
+// Fractions are typed with few digits; the first species takes the rest anyway.
+constexpr double fraction_tolerance = 1e-3;
+
+struct Range {
+  bool (*contains)(double);
+  const char* words;
+};
+constexpr Range positive{[](double x) { return std::isfinite(x) && x > 0.0; }, "a finite number above 0"};
+constexpr Range non_negative{[](double x) { return std::isfinite(x) && x >= 0.0; }, "a finite number of at least 0"};
+constexpr Range unit_interval{[](double x) { return x >= 0.0 && x <= 1.0; }, "a number from 0 to 1"};
+
+// Typed, checked access to a parsed file; every refusal carries the line of the node at fault.
+class ModelParser {
+ public:
+  ModelParser(std::string file, const toml::table& root) : file_(std::move(file)), root_(root) {}
+
+  LennardJonesModel parse(const std::string& default_name) const;
+
+ private:
+  [[noreturn]] void refuse(const toml::node& at, const std::string& what_and_allowed) const {
+    throw_bad_input(fmt::format("{}:{}: {}", file_, std::max<std::size_t>(at.source().begin.line, 1), what_and_allowed));
+  }
+  void allow_keys(const toml::table& table, std::initializer_list<std::string_view> keys) const;
+  const toml::node& need(const toml::table& table, std::string_view key) const;
+  double number(const toml::node& node, std::string_view key, Range range) const;
+  std::string text(const toml::node& node, std::string_view key) const;
+  std::vector<const toml::table*> tables(std::string_view key) const;
+  void parse_species(LennardJonesModel& model) const;
+  void parse_pairs(LennardJonesModel& model) const;
+  std::size_t species_index(const toml::node& node, const LennardJonesModel& model) const;
+  // For library checks that know the model but not the file.
+  template <class Action>
+  auto located(const toml::node& at, Action action) const {
+    try {
+      return action();
+    } catch (const Error& error) {
+      refuse(at, error.what());
+    }
+  }
+
+  std::string file_;
+  const toml::table& root_;
+};
+
+void ModelParser::allow_keys(const toml::table& table, std::initializer_list<std::string_view> keys) const {
+  for (const auto& [key, node] : table)
+    if (std::find(keys.begin(), keys.end(), key.str()) == keys.end()) {
+      const std::size_t line = key.source().begin.line;
+      throw_bad_input(fmt::format("{}:{}: unknown key '{}': allowed are {}", file_, line, key.str(), fmt::join(keys, ", ")));
+    }
+}
+
+const toml::node& ModelParser::need(const toml::table& table, std::string_view key) const {
+  const toml::node* node = table.get(key);
+  if (!node) refuse(table, fmt::format("'{}' is missing: it is needed here", key));
+  return *node;
+}
+
+double ModelParser::number(const toml::node& node, std::string_view key, Range range) const {
+  const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+  if (!value || !range.contains(*value))
+    refuse(node, value ? fmt::format("{} = {} is not allowed: {} is needed", key, *value, range.words)
+                       : fmt::format("{} is no number: {} is needed", key, range.words));
+  return *value;
+}
+
+std::string ModelParser::text(const toml::node& node, std::string_view key) const {
+  const auto value = node.value_exact<std::string>();
+  if (!value || value->empty()) refuse(node, fmt::format("{} is not allowed: a text in quotes is needed", key));
+  return *value;
+}
+
+std::vector<const toml::table*> ModelParser::tables(std::string_view key) const {
+  const toml::node& node = need(root_, key);
+  const toml::array* array = node.as_array();
+  if (!array || array->empty()) refuse(node, fmt::format("{} is not allowed: [[{}]] sections are needed", key, key));
+  std::vector<const toml::table*> result;
+  for (const toml::node& element : *array) {
+    if (!element.is_table()) refuse(element, fmt::format("{} is not allowed: [[{}]] sections are needed", key, key));
+    result.push_back(element.as_table());
+  }
+  return result;
+}
+
+void ModelParser::parse_species(LennardJonesModel& model) const {
+  const auto sections = tables("species");
+  if (sections.size() > most_species)
+    refuse(*sections.back(), fmt::format("{} species are not allowed: at most {} are", sections.size(), most_species));
+  std::size_t with_fraction = 0;
+  double sum = 0.0;
+  for (const toml::table* section : sections) {
+    allow_keys(*section, {"name", "mass", "fraction"});
+    Species species;
+    const toml::node& name = need(*section, "name");
+    species.name = text(name, "name");
+    if (std::any_of(species.name.begin(), species.name.end(), [](unsigned char c) { return c <= ' ' || c == 127; }))
+      refuse(name, "the name of a species is a column in files: blanks are not allowed in it");
+    for (const Species& other : model.species)
+      if (other.name == species.name) refuse(name, fmt::format("species {} is given twice: each once is allowed", species.name));
+    if (const toml::node* mass = section->get("mass")) species.mass = number(*mass, "mass", positive);
+    if (const toml::node* fraction = section->get("fraction")) {
+      sum += species.fraction = number(*fraction, "fraction", unit_interval);
+      ++with_fraction;
+    } else {
+      species.fraction = 1.0 / static_cast<double>(sections.size());
+    }
+    model.species.push_back(species);
+  }
+  if (with_fraction != 0 && with_fraction != sections.size())
+    refuse(*sections.front(),
+           fmt::format("{} of {} species have a fraction: all or none is allowed", with_fraction, sections.size()));
+  if (with_fraction != 0 && std::abs(sum - 1.0) > fraction_tolerance)
+    refuse(*sections.front(), fmt::format("the fractions add up to {}: a sum of 1 is needed", sum));
+}
+
+std::size_t ModelParser::species_index(const toml::node& node, const LennardJonesModel& model) const {
+  const std::string name = text(node, "species");
+  return located(node, [&] { return static_cast<std::size_t>(model.find_species(name)); });
+}
+
+void ModelParser::parse_pairs(LennardJonesModel& model) const {
+  const std::size_t n = model.species.size();
+  model.epsilon.assign(n * n, 0.0);
+  model.sigma.assign(n * n, 0.0);  // 0: not given yet
+  for (const toml::table* section : tables("pair")) {
+    allow_keys(*section, {"species", "epsilon", "sigma"});
+    const toml::node& node = need(*section, "species");
+    const toml::array* names = node.as_array();
+    if (!names || names->size() != 2) refuse(node, "species is not allowed: a list of two names is needed, [\"A\", \"B\"]");
+    const std::size_t a = species_index(*names->get(0), model), b = species_index(*names->get(1), model);
+    if (model.sigma[model.pair(a, b)] != 0.0)
+      refuse(node, fmt::format("pair {}-{} is given twice: each pair once, in either order, is allowed", model.species[a].name,
+                               model.species[b].name));
+    model.epsilon[model.pair(a, b)] = model.epsilon[model.pair(b, a)] = number(need(*section, "epsilon"), "epsilon", non_negative);
+    model.sigma[model.pair(a, b)] = model.sigma[model.pair(b, a)] = number(need(*section, "sigma"), "sigma", positive);
+  }
+  for (std::size_t a = 0; a < n; ++a)
+    for (std::size_t b = a; b < n; ++b)
+      if (model.sigma[model.pair(a, b)] == 0.0)
+        refuse(need(root_, "pair"), fmt::format("pair {}-{} is missing: every pair of species is needed once",
+                                                model.species[a].name, model.species[b].name));
+}
+
+LennardJonesModel ModelParser::parse(const std::string& default_name) const {
+  allow_keys(root_, {"kind", "name", "cutoff", "truncation", "images", "species", "pair"});
+  const toml::node& kind = need(root_, "kind");
+  if (const std::string word = text(kind, "kind"); word != "lennard-jones")
+    refuse(kind, fmt::format("unknown kind '{}': allowed is lennard-jones", word));
+  LennardJonesModel model;
+  model.name = default_name;
+  if (const toml::node* node = root_.get("name")) model.name = text(*node, "name");
+  if (const toml::node* node = root_.get("cutoff")) model.cutoff = number(*node, "cutoff", positive);
+  if (const toml::node* node = root_.get("truncation")) {
+    const std::string word = text(*node, "truncation");
+    model.truncation = located(*node, [&] { return parse_truncation(word); });
+  }
+  if (const toml::node* node = root_.get("images")) {
+    const std::string word = text(*node, "images");
+    model.images = located(*node, [&] { return parse_image_rule(word); });
+  }
+  parse_species(model);
+  parse_pairs(model);
+  located(root_, [&] { model.check(); });
+  return model;
+}
+
+std::string read_text(const std::filesystem::path& path) {
+  const auto refuse = [&](std::string_view what) {
+    throw_bad_input(fmt::format("{}: {}: a readable TOML file of at most {} bytes is needed", path.string(), what, largest_file));
+  };
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (std::filesystem::is_directory(status)) refuse("it is a folder");
+  if (!std::filesystem::exists(status)) refuse("there is no such file");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) refuse("it cannot be opened");
+  std::string content(largest_file + 1, '\0');
+  in.read(content.data(), static_cast<std::streamsize>(content.size()));
+  if (in.bad()) refuse("reading failed");
+  content.resize(static_cast<std::size_t>(in.gcount()));
+  if (content.size() > largest_file) refuse("it is too large");
+  return content;
+}
+
+std::string quoted(const std::string& text) {
+  std::ostringstream out;
+  out << toml::value<std::string>(text);
+  return out.str();
+}
+
+LennardJonesModel parse_model(const std::string& content, const std::string& file, const std::string& default_name) {
+  try {
+    return ModelParser(file, toml::parse(content)).parse(default_name);
+  } catch (const toml::parse_error& error) {
+    std::string what(error.description());
+    std::replace_if(what.begin(), what.end(), [](unsigned char c) { return c < ' ' || c == 127; }, ' ');
+    throw_bad_input(fmt::format("{}:{}: {}: valid TOML is needed", file, error.source().begin.line, what));
+  }
+}
+
+}  // namespace
+
+LennardJonesModel read_model_file(const std::filesystem::path& path) {
+  return parse_model(read_text(path), path.string(), path.stem().string());
+}
+
+void write_model_file(std::ostream& out, const LennardJonesModel& model) {
+  model.check();
+  std::string text = "kind = \"lennard-jones\"\n";
+  if (!model.name.empty()) text += fmt::format("name = {}\n", quoted(model.name));
+  text += fmt::format("cutoff = {}\ntruncation = \"{}\"\nimages = \"{}\"\n", model.cutoff, to_string(model.truncation),
+                      to_string(model.images));
+  for (const Species& species : model.species)
+    text +=
+        fmt::format("\n[[species]]\nname = {}\nmass = {}\nfraction = {}\n", quoted(species.name), species.mass, species.fraction);
+  for (std::size_t a = 0; a < model.species.size(); ++a)
+    for (std::size_t b = a; b < model.species.size(); ++b)
+      text += fmt::format("\n[[pair]]\nspecies = [{}, {}]\nepsilon = {}\nsigma = {}\n", quoted(model.species[a].name),
+                          quoted(model.species[b].name), model.epsilon[model.pair(a, b)], model.sigma[model.pair(a, b)]);
+  // The reader is stricter than check() on names and fractions; what it would refuse is not written.
+  parse_model(text, "model " + model.name, model.name);
+  out << text;
+}
+
+}  // namespace lanescape

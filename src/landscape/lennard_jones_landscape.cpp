@@ -1,0 +1,15 @@
+#include "landscape/lennard_jones_landscape.hpp"
+
+namespace lanescape {
+
+LennardJonesLandscape::LennardJonesLandscape(const LennardJonesModel& model, const Box& box, const ParticleLayout& layout, Isa isa)
+    : dimension_(layout.dimension()),
+      particles_(layout.size()),
+      algebra_(kernel_table(isa)),
+      interaction_(model, box, layout, kernel_table(isa)) {}
+
+double LennardJonesLandscape::energy_and_gradient(const AlignedArray& position, AlignedArray& gradient) {
+  return interaction_.energy_and_gradient(position, gradient).energy;
+}
+
+}  // namespace lanescape

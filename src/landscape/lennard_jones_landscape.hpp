@@ -1,0 +1,26 @@
+#pragma once
+
+#include "dispatch/isa.hpp"
+#include "interaction/lennard_jones.hpp"
+#include "landscape/soft_landscape.hpp"
+
+namespace lanescape {
+
+// The landscape of a Lennard-Jones mixture in a fixed box, R in the layout's order.
+class LennardJonesLandscape final : public SoftLandscape {
+ public:
+  LennardJonesLandscape(const LennardJonesModel& model, const Box& box, const ParticleLayout& layout, Isa isa);
+
+  std::size_t dimension() const override { return dimension_; }
+  std::size_t particles() const override { return particles_; }
+  const VectorAlgebra& algebra() const override { return algebra_; }
+  double energy(const AlignedArray& position) override { return interaction_.energy(position); }
+  double energy_and_gradient(const AlignedArray& position, AlignedArray& gradient) override;
+
+ private:
+  std::size_t dimension_, particles_;
+  VectorAlgebra algebra_;
+  LennardJones interaction_;
+};
+
+}  // namespace lanescape

@@ -1,0 +1,156 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+#include "core/archive.hpp"
+#include "landscape/soft_landscape.hpp"
+#include "path/path_statistics.hpp"
+#include "path/recorder.hpp"
+#include "stepper/direct.hpp"
+
+namespace lanescape {
+
+// How a search for a path ended; `running` while it has not.
+enum class Outcome : std::uint64_t { running, reached, step_limit, stalled, interrupted };
+
+inline const char* to_string(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::running: return "running";
+    case Outcome::reached: return "reached";
+    case Outcome::step_limit: return "step_limit";
+    case Outcome::stalled: return "stalled";
+    case Outcome::interrupted: return "interrupted";
+  }
+  return "";
+}
+
+struct FinderOptions {
+  std::uint64_t max_steps = 1'000'000'000;
+  std::uint64_t patience = 1000;  // accepted steps without progress after which a path is stalled
+  std::size_t frames = 100;       // configurations kept between the two ends
+};
+
+// Walks from R_i to R_f with a stepper that makes direct steps and detours (PHYSICS 3). Everything the rest of the path depends
+// on is in its state; one call of step() is one accepted step.
+template <class Stepper>
+class PathFinder {
+ public:
+  PathFinder(const SoftLandscape& landscape, Stepper stepper, AlignedArray start, AlignedArray goal, double landscape_energy,
+             const FinderOptions& options)
+      : algebra_(&landscape.algebra()),
+        stepper_(std::move(stepper)),
+        options_(options),
+        landscape_energy_(landscape_energy),
+        position_(std::move(start)),
+        goal_(std::move(goal)),
+        to_goal_(position_.size(), 0.0),
+        next_(position_.size(), 0.0),
+        best_distance_(algebra_->distance(position_, goal_)),
+        recorder_(options.frames, best_distance_) {}
+
+  Outcome outcome() const { return outcome_; }
+  const std::string& reason() const { return reason_; }
+  const PathStatistics& statistics() const { return statistics_; }
+  const PathRecorder& recorder() const { return recorder_; }
+  const Stepper& stepper() const { return stepper_; }
+  std::uint64_t direct_steps() const { return direct_steps_; }
+  std::uint64_t detour_steps() const { return detour_steps_; }
+  std::uint64_t steps() const { return direct_steps_ + detour_steps_; }
+  double largest_violation() const { return largest_violation_; }
+  double distance_left() const { return algebra_->distance(position_, goal_); }
+  const AlignedArray& position() const { return position_; }
+
+  // Advances by at most `steps` accepted steps, or to the end of the search.
+  void advance(std::uint64_t steps) {
+    for (; steps > 0 && outcome_ == Outcome::running; --steps) step();
+  }
+
+  void exchange(Archive& archive) {
+    std::uint64_t outcome = static_cast<std::uint64_t>(outcome_);
+    archive.field("outcome", outcome);
+    outcome_ = static_cast<Outcome>(outcome);
+    archive.field("reason", reason_);
+    archive.field("position", position_);
+    archive.field("direct_steps", direct_steps_);
+    archive.field("detour_steps", detour_steps_);
+    archive.field("largest_violation", largest_violation_);
+    archive.field("best_distance", best_distance_);
+    archive.field("best_step", best_step_);
+    archive.field("direct_steps_at_row", direct_steps_at_row_);
+    archive.field("steps_at_row", steps_at_row_);
+    statistics_.exchange(archive);
+    recorder_.exchange(archive);
+    stepper_.exchange(archive, position_);
+  }
+
+ private:
+  void step() {
+    algebra_->difference(to_goal_, goal_, position_);
+    const PathPoint at{position_, to_goal_, algebra_->norm(to_goal_)};
+    if (at.distance < stepper_.step_length()) return hop();
+    if (steps() >= options_.max_steps) return end(Outcome::step_limit, fmt::format("{} steps were allowed", options_.max_steps));
+    if (no_progress(at.distance))
+      return end(Outcome::stalled,
+                 fmt::format("no progress over {} steps, at a distance of {:.6g} from the goal", options_.patience, at.distance));
+    const auto kind = stepper_.step(at, next_);
+    if (!kind) return end(Outcome::stalled, fmt::format("{}, at a distance of {:.6g} from the goal", stepper_.failure(), at.distance));
+    ++(*kind == StepKind::direct ? direct_steps_ : detour_steps_);
+    statistics_.add(algebra_->displacement_moments(position_, next_));
+    largest_violation_ = std::max(largest_violation_, stepper_.energy() - landscape_energy_);
+    position_.swap(next_);
+    record(at.distance);
+  }
+
+  // The last displacement, counted in the length but not as a step.
+  void hop() {
+    statistics_.add(algebra_->displacement_moments(position_, goal_));
+    position_ = goal_;
+    end(Outcome::reached, "");
+  }
+
+  void end(Outcome outcome, std::string reason) {
+    outcome_ = outcome;
+    reason_ = std::move(reason);
+  }
+
+  // A direct step gains its whole length; less than a millionth of that in `patience` steps is none.
+  bool no_progress(double distance) {
+    if (distance < best_distance_ - 1e-6 * stepper_.step_length() || steps() == 0) {
+      best_distance_ = distance;
+      best_step_ = steps();
+    }
+    return steps() - best_step_ >= options_.patience;
+  }
+
+  void record(double distance) {
+    recorder_.keep_frame(position_, distance);
+    if (!recorder_.trace().wants(steps())) return;
+    const double direct = static_cast<double>(direct_steps_ - direct_steps_at_row_);
+    const double fraction = direct / static_cast<double>(std::max<std::uint64_t>(1, steps() - steps_at_row_));
+    direct_steps_at_row_ = direct_steps_;
+    steps_at_row_ = steps();
+    recorder_.trace().add({static_cast<double>(steps()), statistics_.length(), distance, stepper_.energy(), fraction,
+                           statistics_.last_participation_number()});
+  }
+
+  const VectorAlgebra* algebra_;
+  Stepper stepper_;
+  FinderOptions options_;
+  double landscape_energy_;
+  AlignedArray position_, goal_, to_goal_, next_;
+  Outcome outcome_ = Outcome::running;
+  std::string reason_;
+  std::uint64_t direct_steps_ = 0, detour_steps_ = 0;
+  double largest_violation_ = 0.0;
+  double best_distance_;
+  std::uint64_t best_step_ = 0;
+  std::uint64_t direct_steps_at_row_ = 0, steps_at_row_ = 0;
+  PathStatistics statistics_;
+  PathRecorder recorder_;
+};
+
+}  // namespace lanescape

@@ -1,0 +1,229 @@
+#include "run/path_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <memory>
+
+#include "core/error.hpp"
+#include "interaction/lennard_jones.hpp"
+#include "landscape/kinematic_landscape.hpp"
+#include "landscape/lennard_jones_landscape.hpp"
+#include "stepper/contour.hpp"
+#include "stepper/escape.hpp"
+
+namespace lanescape {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Steps between looks at the outside world, and between checkpoints: about 3 ms and 2 s.
+std::uint64_t steps_per_chunk(std::size_t particles) { return std::clamp<std::uint64_t>(30'000 / (particles + 1), 1, 1000); }
+constexpr std::uint64_t chunks_per_checkpoint = 700;
+
+// The ends in kinematic coordinates, and how to get back.
+struct Metric {
+  AlignedArray scale;  // empty where all masses are equal
+  AlignedArray to_kinematic(AlignedArray r) const {
+    for (std::size_t k = 0; k < scale.size(); ++k) r[k] *= scale[k];
+    return r;
+  }
+  AlignedArray to_positions(AlignedArray q) const {
+    for (std::size_t k = 0; k < scale.size(); ++k) q[k] /= scale[k];
+    return q;
+  }
+};
+
+std::unique_ptr<SoftLandscape> make_landscape(const LennardJonesModel& model, const Box& box, const ParticleLayout& layout, Isa isa,
+                                              const Metric& metric) {
+  std::unique_ptr<SoftLandscape> landscape = std::make_unique<LennardJonesLandscape>(model, box, layout, isa);
+  if (metric.scale.empty()) return landscape;
+  return std::make_unique<KinematicLandscape>(std::move(landscape), metric.scale);
+}
+
+// One search and the time it took, as archived.
+template <class Stepper>
+struct Search {
+  PathFinder<Stepper> finder;
+  double seconds = 0.0;
+  void exchange(Archive& archive) {
+    finder.exchange(archive);
+    archive.field("seconds", seconds);
+  }
+};
+
+template <class Stepper>
+PathResult summarise(const Search<Stepper>& search, const ConfigurationPair& pair, const ParticleLayout& layout, const Metric& metric,
+                     bool reversed, bool interrupted) {
+  const auto& finder = search.finder;
+  PathResult result;
+  result.outcome = interrupted ? Outcome::interrupted : finder.outcome();
+  result.reason = finder.reason();
+  result.reversed = reversed;
+  result.length = finder.statistics().length();
+  result.participation_number = finder.statistics().participation_number();
+  result.direct_steps = finder.direct_steps();
+  result.detour_steps = finder.detour_steps();
+  result.evaluations = finder.stepper().evaluations();
+  result.corrections = finder.stepper().corrections();
+  result.largest_violation = finder.largest_violation();
+  result.seconds = search.seconds;
+  result.trace = finder.recorder().trace();
+  result.frames.push_back(reversed ? pair.finish : pair.start);
+  const auto add = [&](const AlignedArray& q) {
+    result.frames.push_back({pair.start.box, pair.start.species, layout.to_user(metric.to_positions(q))});
+  };
+  for (const AlignedArray& q : finder.recorder().frames()) add(q);
+  if (finder.outcome() == Outcome::reached)
+    result.frames.push_back(reversed ? pair.start : pair.finish);
+  else
+    add(finder.position());
+  return result;
+}
+
+// What the searches of one run share.
+struct Run {
+  const LennardJonesModel& model;
+  const std::vector<ConfigurationPair>& pairs;
+  const PathRunOptions& options;
+  Isa isa;
+  const CheckpointOptions& checkpoint;
+  RunMonitor& monitor;
+  std::vector<std::atomic<double>> covered;  // of the way, 0 ... 1 per pair
+
+  Run(const LennardJonesModel& m, const std::vector<ConfigurationPair>& p, const PathRunOptions& o, Isa i, const CheckpointOptions& c,
+      RunMonitor& w)
+      : model(m), pairs(p), options(o), isa(i), checkpoint(c), monitor(w), covered(p.size()) {}
+
+  void report(std::size_t number, double part) {
+    covered[number] = part;
+    double sum = 0.0;
+    for (const auto& c : covered) sum += c;
+    monitor.progress("paths", sum, static_cast<double>(pairs.size()));
+  }
+};
+
+template <class Stepper>
+PathResult search_one_way(Run& run, std::size_t number, bool reversed, const ParticleLayout& layout, const Metric& metric) {
+  const ConfigurationPair& pair = run.pairs[number];
+  const auto landscape = make_landscape(run.model, pair.start.box, layout, run.isa, metric);
+  AlignedArray start = metric.to_kinematic(layout.to_slots((reversed ? pair.finish : pair.start).positions));
+  AlignedArray goal = metric.to_kinematic(layout.to_slots((reversed ? pair.start : pair.finish).positions));
+  const double highest_end = std::max(landscape->energy(start), landscape->energy(goal));
+  const double landscape_energy = run.options.landscape_energy.value_or(highest_end);
+  if (!(highest_end <= landscape_energy))
+    throw_bad_input(fmt::format("pair {}: an end point has energy {}, above the landscape energy {}", number + 1, highest_end,
+                                landscape_energy));
+  const double distance = landscape->algebra().distance(start, goal);
+
+  typename Stepper::Options stepper_options;
+  stepper_options.direct_step = run.options.direct_step;
+  Search<Stepper> search{PathFinder<Stepper>(*landscape, Stepper(*landscape, landscape_energy, stepper_options), std::move(start),
+                                             std::move(goal), landscape_energy, run.options.finder)};
+  const auto file = run.checkpoint.folder / fmt::format("path-{:04}{}.h5", number + 1, reversed ? "-reverse" : "");
+  if (run.checkpoint.enabled() && run.checkpoint.resume) load_checkpoint(file, search);
+
+  auto& finder = search.finder;
+  const std::uint64_t chunk = steps_per_chunk(layout.size());
+  auto last = Clock::now();
+  bool interrupted = false;
+  const bool was_running = finder.outcome() == Outcome::running;
+  while (finder.outcome() == Outcome::running && !interrupted) {
+    finder.advance(chunk - finder.steps() % chunk);
+    const auto now = Clock::now();
+    search.seconds += std::chrono::duration<double>(now - last).count();
+    last = now;
+    const double part = 1.0 - finder.distance_left() / distance;
+    run.report(number, run.options.reverse ? 0.5 * (part + (reversed ? 1.0 : 0.0)) : part);
+    interrupted = finder.outcome() == Outcome::running && run.monitor.stop_requested();
+    const bool due = finder.steps() % (chunk * chunks_per_checkpoint) == 0;
+    if (run.checkpoint.enabled() && (due || interrupted)) save_checkpoint(file, search);
+  }
+  if (run.checkpoint.enabled() && was_running && !interrupted) save_checkpoint(file, search);
+
+  PathResult result = summarise(search, pair, layout, metric, reversed, interrupted);
+  result.distance = distance;
+  result.landscape_energy = landscape_energy;
+  return result;
+}
+
+template <class Stepper>
+PathResult search_pair(Run& run, std::size_t number) {
+  const ConfigurationPair& pair = run.pairs[number];
+  const ParticleLayout layout(pair.start.species, run.model.species.size());
+  Metric metric;
+  if (!has_equal_masses(run.model)) metric.scale = kinematic_scale(run.model, layout);
+  PathResult forward = search_one_way<Stepper>(run, number, false, layout, metric);
+  if (!run.options.reverse || forward.outcome == Outcome::interrupted) return forward;
+  PathResult backward = search_one_way<Stepper>(run, number, true, layout, metric);
+  if (backward.outcome == Outcome::interrupted) return backward;
+  const bool keep_backward =
+      backward.outcome == Outcome::reached && (forward.outcome != Outcome::reached || backward.length < forward.length);
+  return keep_backward ? backward : forward;
+}
+
+}  // namespace
+
+PathMethod parse_path_method(std::string_view word) {
+  if (word == "contour") return PathMethod::contour;
+  if (word == "escape") return PathMethod::escape;
+  throw_bad_input(fmt::format("unknown method '{}': allowed are contour, escape", word));
+}
+
+const char* to_string(PathMethod method) { return method == PathMethod::contour ? "contour" : "escape"; }
+
+void check_end_points(const ConfigurationPair& pair, const LennardJonesModel& model, const std::string& where) {
+  if (!(pair.start.box == pair.finish.box)) throw_bad_input(where + ": the two end points have different boxes");
+  if (pair.start.species != pair.finish.species)
+    throw_bad_input(where + ": the two end points differ in composition or in the order of their particles");
+  if (pair.start.positions == pair.finish.positions) throw_bad_input(where + ": the two end points coincide");
+  for (const Configuration* end : {&pair.start, &pair.finish}) {
+    try {
+      check_separations(*end, model);
+    } catch (const Error& error) {
+      throw Error(error.code(), fmt::format("{}, {} end: {}", where, end == &pair.start ? "first" : "last", error.what()));
+    }
+  }
+}
+
+void PathRunOptions::check() const {
+  if (!(direct_step > 0.0 && direct_step <= 1.0))
+    throw_bad_input(fmt::format("step {} is not allowed: above 0 and at most 1", direct_step));
+  if (landscape_energy && !std::isfinite(*landscape_energy))
+    throw_bad_input(fmt::format("landscape energy {} is not allowed: it must be finite", *landscape_energy));
+  if (finder.max_steps == 0) throw_bad_input("the step limit must be at least 1");
+  if (finder.frames > 100'000) throw_bad_input(fmt::format("{} frames are not allowed: at most 100000", finder.frames));
+}
+
+std::vector<PathResult> run_paths(const LennardJonesModel& model, const std::vector<ConfigurationPair>& pairs,
+                                  const PathRunOptions& options, Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor) {
+  options.check();
+  if (pairs.empty()) throw_bad_input("no pair of end points was given");
+  for (std::size_t k = 0; k < pairs.size(); ++k) check_end_points(pairs[k], model, fmt::format("pair {}", k + 1));
+
+  Run run(model, pairs, options, isa, checkpoint, monitor);
+  std::vector<PathResult> results(pairs.size());
+  std::vector<std::exception_ptr> failures(pairs.size());
+  const auto one = [&](std::size_t k) noexcept {
+    try {
+      results[k] = options.method == PathMethod::contour ? search_pair<ContourStepper>(run, k) : search_pair<EscapeStepper>(run, k);
+    } catch (...) {
+      failures[k] = std::current_exception();
+    }
+  };
+  if (options.threads > 1 && pairs.size() > 1) {
+#pragma omp parallel for schedule(dynamic, 1) num_threads(options.threads)
+    for (std::size_t k = 0; k < pairs.size(); ++k) one(k);
+  } else {
+    for (std::size_t k = 0; k < pairs.size(); ++k) one(k);
+  }
+  for (const auto& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+  return results;
+}
+
+}  // namespace lanescape

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "configuration/configuration.hpp"
+#include "configuration/lennard_jones_model.hpp"
+#include "core/decimated_trace.hpp"
+#include "core/run_monitor.hpp"
+#include "dispatch/isa.hpp"
+#include "path/finder.hpp"
+#include "run/checkpoint.hpp"
+#include "run/end_point_run.hpp"
+
+namespace lanescape {
+
+enum class PathMethod { contour, escape };
+// Throws Error(bad_input) naming the allowed words.
+PathMethod parse_path_method(std::string_view word);
+const char* to_string(PathMethod method);
+
+struct PathRunOptions {
+  PathMethod method = PathMethod::contour;
+  double direct_step = 1e-3;               // delta_di, in 3N space [sigma]
+  std::optional<double> landscape_energy;  // E_L; else the higher of the two ends [epsilon]
+  bool reverse = false;                    // search from the far end too and keep the shorter path
+  FinderOptions finder;
+  int threads = 1;                         // paths searched at once; no effect on any result
+  // Throws Error(bad_input) naming the option that is out of range.
+  void check() const;
+};
+
+struct PathResult {
+  Outcome outcome = Outcome::running;
+  std::string reason;                // why it ended where it did not reach its goal
+  bool reversed = false;             // found from R_f to R_i; frames and trace run that way
+  double length = 0.0;               // g [sigma], the last hop included
+  double distance = 0.0;             // DeltaR = |R_f - R_i| [sigma]
+  double participation_number = 0.0; // n, mean over steps weighted with their length
+  std::uint64_t direct_steps = 0, detour_steps = 0, evaluations = 0;
+  std::vector<std::uint64_t> corrections;  // histogram of the stepper's inner iterations per detour
+  double landscape_energy = 0.0;     // E_L [epsilon]
+  double largest_violation = 0.0;    // largest V - E_L of an accepted point, at least 0 [epsilon]
+  double seconds = 0.0;
+  DecimatedTrace trace{PathRecorder::columns, PathRecorder::trace_rows};
+  std::vector<Configuration> frames;  // from one end to the other, ends included
+
+  double ratio_squared() const { return length > 0.0 ? distance * distance / (length * length) : 0.0; }
+};
+
+// Throws Error(bad_input) where the ends of a pair differ in box or composition, coincide or overlap; the message starts with
+// `where`.
+void check_end_points(const ConfigurationPair& pair, const LennardJonesModel& model, const std::string& where);
+
+// One path for each pair, paths in parallel. The results do not depend on the number of threads, nor on interruption and
+// resumption. Throws Error(bad_input) for a pair that check_end_points() refuses or with an end above a given landscape energy.
+std::vector<PathResult> run_paths(const LennardJonesModel& model, const std::vector<ConfigurationPair>& pairs,
+                                  const PathRunOptions& options, Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor);
+
+}  // namespace lanescape

@@ -1,0 +1,74 @@
+#include "stepper/contour.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lanescape {
+
+ContourStepper::ContourStepper(SoftLandscape& landscape, double landscape_energy, const Options& options)
+    : landscape_(&landscape),
+      landscape_energy_(landscape_energy),
+      options_(options),
+      corrections_(16, 0),
+      gradient_(landscape.dimension(), 0.0),
+      trial_gradient_(landscape.dimension(), 0.0),
+      along_(landscape.dimension(), 0.0) {}
+
+std::optional<StepKind> ContourStepper::step(const PathPoint& at, AlignedArray& next) {
+  const VectorAlgebra& algebra = landscape_->algebra();
+  direct_trial(algebra, at, options_.direct_step, next);
+  ++evaluations_;
+  const double direct_energy = landscape_->energy(next);
+  if (direct_energy <= landscape_energy_) {
+    energy_ = direct_energy;
+    gradient_known_ = false;
+    return StepKind::direct;
+  }
+  if (!gradient_known_) {
+    ++evaluations_;
+    landscape_->energy_and_gradient(at.position, gradient_);
+    gradient_known_ = true;
+  }
+  // f = d - (d.n) n, kept as |R_f - R| f.
+  const double slope = algebra.norm(gradient_);
+  if (!(slope > 0.0)) {
+    failure_ = "the direct step is forbidden and the potential is flat";
+    return std::nullopt;
+  }
+  algebra.axpy(along_, at.to_goal, -algebra.dot(gradient_, at.to_goal) / (slope * slope), gradient_);
+  const double along_length = algebra.norm(along_);
+  if (!(along_length > 1e-12 * at.distance)) {
+    failure_ = "the direction to the goal is parallel to the gradient";
+    return std::nullopt;
+  }
+  for (std::uint64_t k = 0; k <= options_.max_corrections; ++k) {
+    const double back = -static_cast<double>(k) * options_.correction / slope;
+    algebra.combine(next, at.position, options_.direct_step / along_length, along_, back, gradient_);
+    ++evaluations_;
+    // With its gradient, since this trial is nearly always accepted and the next detour starts from here.
+    const double energy = landscape_->energy_and_gradient(next, trial_gradient_);
+    if (energy <= landscape_energy_) {
+      energy_ = energy;
+      gradient_.swap(trial_gradient_);
+      ++corrections_[std::min<std::size_t>(k, corrections_.size() - 1)];
+      return StepKind::detour;
+    }
+  }
+  failure_ = fmt::format("no allowed point after {} corrections of {} along the gradient", options_.max_corrections, options_.correction);
+  return std::nullopt;
+}
+
+void ContourStepper::exchange(Archive& archive, const AlignedArray& position) {
+  std::uint64_t known = gradient_known_ ? 1 : 0;
+  archive.field("gradient_known", known);
+  archive.field("stepper_energy", energy_);
+  archive.field("evaluations", evaluations_);
+  archive.field("corrections", corrections_);
+  if (!archive.reading()) return;
+  // Not archived: the same position gives the same gradient, to the bit.
+  gradient_known_ = known != 0;
+  if (gradient_known_) landscape_->energy_and_gradient(position, gradient_);
+}
+
+}  // namespace lanescape

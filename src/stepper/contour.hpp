@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/archive.hpp"
+#include "landscape/soft_landscape.hpp"
+#include "stepper/direct.hpp"
+
+namespace lanescape {
+
+// Direct steps, and where they are forbidden a step along the contour of V at the point of retreat ([C] Eqs. 11-15).
+class ContourStepper {
+ public:
+  struct Options {
+    double direct_step = 1e-3;  // length of a step in 3N space [sigma]
+    double correction = 1e-5;   // of each correction against the gradient [sigma]
+    std::uint64_t max_corrections = 100'000;
+  };
+  static constexpr const char* detour_name = "contour";
+
+  ContourStepper(SoftLandscape& landscape, double landscape_energy, const Options& options);
+
+  // One step to an allowed point; nothing where there is none, failure() then says why. `next` is overwritten either way.
+  std::optional<StepKind> step(const PathPoint& at, AlignedArray& next);
+
+  double step_length() const { return options_.direct_step; }
+  double energy() const { return energy_; }                      // V at the last accepted point
+  std::uint64_t evaluations() const { return evaluations_; }     // of V, with or without gradient
+  const std::string& failure() const { return failure_; }
+  // How many contour steps took k = 0, 1, 2, ... corrections; the last entry counts all beyond.
+  const std::vector<std::uint64_t>& corrections() const { return corrections_; }
+
+  void exchange(Archive& archive, const AlignedArray& position);
+
+ private:
+  SoftLandscape* landscape_;
+  double landscape_energy_;
+  Options options_;
+  double energy_ = 0.0;
+  std::uint64_t evaluations_ = 0;
+  std::vector<std::uint64_t> corrections_;
+  std::string failure_;
+  // The gradient at the current point, if the trial that led there was evaluated with it.
+  bool gradient_known_ = false;
+  AlignedArray gradient_, trial_gradient_, along_;
+};
+
+}  // namespace lanescape

@@ -1,0 +1,198 @@
+#include "verification/cases.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "core/box.hpp"
+#include "core/random.hpp"
+
+namespace lanescape {
+namespace {
+
+using Point = std::array<double, 3>;
+
+constexpr std::uint64_t seed = 1;
+
+Box cube(double length) { return {{length, length, length}}; }
+
+// Points in units of the box: `cells` unit cells per axis, each holding `basis`.
+std::vector<Point> lattice(const std::array<int, 3>& cells, const std::vector<Point>& basis) {
+  std::vector<Point> sites;
+  for (int x = 0; x < cells[0]; ++x)
+    for (int y = 0; y < cells[1]; ++y)
+      for (int z = 0; z < cells[2]; ++z)
+        for (const Point& b : basis) sites.push_back({(x + b[0]) / cells[0], (y + b[1]) / cells[1], (z + b[2]) / cells[2]});
+  return sites;
+}
+
+// The cubic lattice (simple, body-centred or face-centred) with the fewest sites above n, cut to n sites.
+std::vector<Point> densest_lattice(std::size_t n) {
+  const std::vector<std::vector<Point>> bases = {
+      {{0.0, 0.0, 0.0}}, {{0.0, 0.0, 0.0}, {0.5, 0.5, 0.5}}, {{0.0, 0.0, 0.0}, {0.0, 0.5, 0.5}, {0.5, 0.0, 0.5}, {0.5, 0.5, 0.0}}};
+  std::vector<Point> best;
+  for (const auto& basis : bases) {
+    int cells = 1;
+    while (basis.size() * static_cast<std::size_t>(cells * cells * cells) < n) ++cells;
+    const auto sites = lattice({cells, cells, cells}, basis);
+    if (best.empty() || sites.size() < best.size()) best = sites;
+  }
+  best.resize(n);
+  return best;
+}
+
+// Sites in box units to positions displaced by up to 0.05 per axis, so that no separation is special; every third particle is
+// moved by up to four boxes per axis, as particles of a long run are. Each fifth particle is of the last species.
+Configuration rattled(const std::vector<Point>& sites, const Box& box, std::size_t species_count) {
+  const CounterRandom jitter(seed, RandomStream::displacements), boxes(seed, RandomStream::sites);
+  Configuration configuration{box, {}, {}};
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    const auto particle = static_cast<std::uint32_t>(i);
+    configuration.species.push_back(i % 5 == 4 ? static_cast<int>(species_count) - 1 : 0);
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+      const double shift = i % 3 == 2 ? static_cast<double>(boxes.below(9, sites.size(), particle, axis)) - 4.0 : 0.0;
+      const double displacement = 0.1 * (jitter.uniform(sites.size(), particle, axis) - 0.5);
+      configuration.positions.push_back((sites[i][axis] + shift) * box.length[axis] + displacement);
+    }
+  }
+  return configuration;
+}
+
+// A simple lattice, sites at least 0.93 apart, that fills a box of any shape.
+Configuration filled(const Box& box, std::size_t species_count) {
+  std::array<int, 3> cells;
+  for (std::size_t axis = 0; axis < 3; ++axis) cells[axis] = std::max(1, static_cast<int>(box.length[axis] / 0.93));
+  return rattled(lattice(cells, {{0.0, 0.0, 0.0}}), box, species_count);
+}
+
+Configuration pair_at(const Point& first, const Point& separation, const Box& box) {
+  Configuration pair{box, {0, 0}, {first[0], first[1], first[2]}};
+  for (std::size_t axis = 0; axis < 3; ++axis) pair.positions.push_back(first[axis] + separation[axis]);
+  return pair;
+}
+
+// A unit vector times r, no component zero or equal to another.
+Point along_diagonal(double r) { return {r * 2.0 / 7.0, r * 3.0 / 7.0, r * 6.0 / 7.0}; }
+
+// Three species of unequal sizes.
+LennardJonesModel ternary() {
+  LennardJonesModel model;
+  model.name = "ternary";
+  model.species = {{"Ar", 1.0, 0.5}, {"Kr", 2.0, 0.3}, {"Xe", 3.0, 0.2}};
+  model.epsilon = {1.0, 1.2, 0.9, 1.2, 1.5, 0.7, 0.9, 0.7, 0.5};
+  model.sigma = {1.0, 0.9, 0.85, 0.9, 0.8, 0.75, 0.85, 0.75, 0.7};
+  return model;
+}
+
+LennardJonesModel with(LennardJonesModel model, ImageRule images, Truncation truncation) {
+  model.images = images;
+  model.truncation = truncation;
+  return model;
+}
+
+LennardJonesModel with_cutoff(LennardJonesModel model, double cutoff) {
+  model.cutoff = cutoff;
+  return model;
+}
+
+const std::array<ImageRule, 2> image_rules = {ImageRule::all, ImageRule::minimum};
+const std::array<Truncation, 3> truncations = {Truncation::shifted, Truncation::plain, Truncation::tail};
+
+// Numbers of particles that leave every kind of remainder in vectors of 2, 4 and 8 lanes and in tiles of 4 rows; at density
+// 1.2 they also run through the three image searches.
+void add_sizes(std::vector<LennardJonesCase>& cases) {
+  for (const auto& model : {lennard_jones(), kob_andersen()})
+    for (const std::size_t n : {0U, 1U, 2U, 3U, 7U, 8U, 9U, 31U, 107U, 108U, 256U, 257U}) {
+      const Box box = cube(std::cbrt(static_cast<double>(std::max<std::size_t>(n, 1)) / 1.2));
+      const Configuration configuration = rattled(densest_lattice(n), box, model.species.size());
+      for (const ImageRule images : image_rules)
+        for (const Truncation truncation : truncations)
+          cases.push_back({fmt::format("{} N={} {} {}", model.name, n, to_string(images), to_string(truncation)),
+                           with(model, images, truncation), configuration});
+    }
+}
+
+// Boxes that are no cubes, one for each image search at the cutoff 2.5; and boxes much smaller than the cutoff.
+void add_boxes(std::vector<LennardJonesCase>& cases) {
+  const std::vector<std::pair<const char*, Box>> boxes = {{"orthorhombic nearest", {{6.0, 5.5, 7.2}}},
+                                                          {"orthorhombic two nearest", {{4.0, 4.4, 5.2}}},
+                                                          {"orthorhombic lattice", {{2.2, 3.1, 4.7}}},
+                                                          {"slab", {{6.5, 5.7, 1.1}}},
+                                                          {"needle", {{1.2, 1.3, 9.0}}}};
+  for (const auto& [name, box] : boxes)
+    for (const auto& model : {lennard_jones(), kob_andersen()})
+      for (const ImageRule images : image_rules)
+        for (const Truncation truncation : {Truncation::shifted, Truncation::tail})
+          cases.push_back({fmt::format("{} {} {} {}", name, model.name, to_string(images), to_string(truncation)),
+                           with(model, images, truncation), filled(box, model.species.size())});
+  for (const std::size_t n : {1U, 2U, 5U}) {
+    const Box box = cube(std::cbrt(static_cast<double>(n) / 1.2));
+    cases.push_back(
+        {fmt::format("tiny box N={} cutoff 4", n), with_cutoff(kob_andersen(), 4.0), rattled(densest_lattice(n), box, 2)});
+  }
+}
+
+// A pair on either side of the cutoff, cut without a shift so that a wrong decision shows. Once for each way through a
+// kernel: the nearest image, the next one and the lattice, in a cube and in another box.
+void add_cutoff_edges(std::vector<LennardJonesCase>& cases) {
+  struct Edge {
+    const char* name;
+    Box box;
+    bool next_image;  // the image that lies on the edge is the one across the x face
+  };
+  for (const Edge& edge : {Edge{"nearest, cube", cube(9.0), false}, Edge{"nearest", {{9.0, 8.0, 7.5}}, false},
+                           Edge{"two nearest, cube", cube(4.0), true}, Edge{"two nearest", {{4.0, 4.4, 5.2}}, true},
+                           Edge{"lattice", {{2.2, 3.1, 4.7}}, true}})
+    for (const double side : {-1.0, 1.0}) {
+      const double r = 2.5 * (1.0 + side * 1e-12);
+      const Point across = {edge.box.length[0] - std::sqrt(r * r - 0.9 * 0.9 - 0.7 * 0.7), 0.9, 0.7};
+      const Point separation = edge.next_image ? across : along_diagonal(r);
+      cases.push_back({fmt::format("pair {} the cutoff ({})", side < 0.0 ? "inside" : "outside", edge.name),
+                       with(lennard_jones(), ImageRule::all, Truncation::plain), pair_at({0.1, 0.2, 0.3}, separation, edge.box)});
+    }
+}
+
+void add_pairs(std::vector<LennardJonesCase>& cases) {
+  for (const auto& [shape, box] : {std::pair{"cube", cube(9.0)}, std::pair{"box", Box{{9.0, 8.0, 7.5}}}}) {
+    cases.push_back({fmt::format("touching pair ({})", shape), lennard_jones(), pair_at({1.0, 2.0, 3.0}, {0.0, 1.0, 0.0}, box)});
+    cases.push_back(
+        {fmt::format("pair near contact ({})", shape), lennard_jones(), pair_at({1.0, 2.0, 3.0}, along_diagonal(0.8), box)});
+    cases.push_back({fmt::format("pair across a corner ({})", shape), lennard_jones(),
+                     pair_at({0.05, 0.1, 0.2}, {box.length[0] - 0.5, box.length[1] - 0.6, box.length[2] - 0.7}, box)});
+    cases.push_back({fmt::format("pair six boxes apart ({})", shape), lennard_jones(),
+                     pair_at({0.05, 0.1, 0.2}, {6.0 * box.length[0] + 0.5, 0.6 - 6.0 * box.length[1], 0.7}, box)});
+    cases.push_back(
+        {fmt::format("pair out of range ({})", shape), lennard_jones(), pair_at({1.0, 2.0, 3.0}, along_diagonal(3.0), box)});
+  }
+}
+
+// Three species of which one has no particles: at the beginning, in the middle or at the end of the blocks.
+void add_empty_species(std::vector<LennardJonesCase>& cases) {
+  for (int empty = 0; empty < 3; ++empty)
+    for (const double length : {2.3, 3.2, 4.6}) {
+      Configuration configuration = filled(cube(length), 1);
+      const int many = (empty + 1) % 3, few = (empty + 2) % 3;
+      for (std::size_t i = 0; i < configuration.size(); ++i) configuration.species[i] = i % 4 == 1 ? few : many;
+      cases.push_back({fmt::format("ternary without species {}, box {}", empty, length),
+                       with(ternary(), ImageRule::all, length < 3.0 ? Truncation::tail : Truncation::shifted), configuration});
+    }
+}
+
+}  // namespace
+
+std::vector<LennardJonesCase> lennard_jones_cases() {
+  std::vector<LennardJonesCase> cases;
+  add_sizes(cases);
+  add_boxes(cases);
+  add_cutoff_edges(cases);
+  add_pairs(cases);
+  add_empty_species(cases);
+  return cases;
+}
+
+}  // namespace lanescape

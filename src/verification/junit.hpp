@@ -1,0 +1,13 @@
+#pragma once
+
+#include <iosfwd>
+#include <vector>
+
+#include "verification/kernel_checks.hpp"
+
+namespace lanescape {
+
+// One test suite, one test case per deviation (class: the instruction set, name: the kernel), as JUnit XML in UTF-8.
+void write_junit(std::ostream& out, const std::vector<Deviation>& deviations);
+
+}  // namespace lanescape

@@ -1,0 +1,225 @@
+#include "verification/kernel_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "configuration/particle_layout.hpp"
+#include "core/aligned_array.hpp"
+#include "core/random.hpp"
+#include "interaction/lennard_jones.hpp"
+#include "verification/reference_bridge.hpp"
+
+namespace lanescape {
+namespace {
+
+// |value - expected| in units of `scale`. Where nothing contributes (scale 0) only the exact value will do; a result that is
+// not a number is infinitely wrong.
+double relative(long double value, long double expected, long double scale) {
+  const long double difference = std::abs(value - expected);
+  if (difference == 0.0L) return 0.0;
+  const auto deviation = static_cast<double>(difference / scale);
+  return std::isnan(deviation) ? std::numeric_limits<double>::infinity() : deviation;
+}
+
+bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+
+// Gathers the worst of many cases.
+struct Check {
+  Deviation deviation;
+
+  Check(const kernels::KernelTable& table, const char* kernel, double tolerance)
+      : deviation{kernel, table.name, "", 0.0, tolerance, 0} {}
+  void add(const std::string& name, double value) {
+    ++deviation.cases;
+    if (value <= deviation.worst) return;
+    deviation.worst = value;
+    deviation.worst_case = name;
+  }
+};
+
+// How much more than the tolerances says the largest coordinate allows.
+double rounding_allowance(const Configuration& configuration) {
+  double largest = tolerance::position_extent;
+  for (const double x : configuration.positions) largest = std::max(largest, std::abs(x));
+  return largest / tolerance::position_extent;
+}
+
+double energy_deviation(double energy, const reference::Evaluation& expected) {
+  return relative(energy, expected.energy, expected.magnitude);
+}
+
+// r.f weights the powers of u(r) by up to 12, and so does its rounding.
+double virial_deviation(double virial, const reference::Evaluation& expected) {
+  return relative(virial, expected.virial, 12.0 * expected.magnitude);
+}
+
+double tensor_deviation(const std::array<double, 6>& tensor, const reference::Evaluation& expected) {
+  double worst = 0.0;
+  for (std::size_t k = 0; k < 6; ++k)
+    worst = std::max(worst, relative(tensor[k], expected.virial_tensor[k], 12.0 * expected.magnitude));
+  return worst;
+}
+
+// Per particle relative to its largest component: a component that happens to be small inherits the rounding of the
+// positions from the others. Padding must stay zero, for the vector algebra sums over it.
+double gradient_deviation(const AlignedArray& gradient, const ParticleLayout& layout, const reference::Evaluation& expected) {
+  const std::vector<double> in_users_order = layout.to_user(gradient);
+  double worst = 0.0;
+  for (std::size_t i = 0; i < layout.size(); ++i) {
+    const auto scales = std::span(expected.gradient_magnitude).subspan(3 * i, 3);
+    const double scale = *std::max_element(scales.begin(), scales.end());
+    for (std::size_t k = 3 * i; k < 3 * i + 3; ++k)
+      worst = std::max(worst, relative(in_users_order[k], expected.gradient[k], scale));
+  }
+  AlignedArray padding = gradient;
+  for (std::size_t i = 0; i < layout.size(); ++i)
+    for (std::size_t axis = 0; axis < 3; ++axis) padding[axis * layout.slots() + layout.slot_of(i)] = 0.0;
+  const bool clean = std::all_of(padding.begin(), padding.end(), [](double g) { return g == 0.0; });
+  return clean ? worst : std::numeric_limits<double>::infinity();
+}
+
+// Inputs of the vector algebra: numbers of either sign with fractions that fill the mantissa.
+AlignedArray random_array(std::size_t length, std::uint64_t which) {
+  const CounterRandom random(1, RandomStream::displacements);
+  AlignedArray values(length);
+  for (std::size_t i = 0; i < length; ++i) values[i] = 20.0 * random.uniform(which, static_cast<std::uint32_t>(i)) - 10.0;
+  return values;
+}
+
+// A sum of products and of their absolute values.
+struct Sum {
+  long double value = 0.0L, magnitude = 0.0L;
+  void add(long double term) {
+    value += term;
+    magnitude += std::abs(term);
+  }
+};
+
+}  // namespace
+
+std::string describe(const Deviation& d) {
+  return fmt::format("{} on {}: worst deviation {:.3g}, allowed {:.3g}, of {} cases the worst is '{}'", d.kernel, d.isa, d.worst,
+                     d.tolerance, d.cases, d.worst_case);
+}
+
+std::vector<Deviation> verify_lennard_jones(const kernels::KernelTable& table, const std::vector<LennardJonesCase>& cases) {
+  Check energy(table, "lj_energy", tolerance::lj_sums);
+  Check gradient_energy(table, "lj_gradient energy", tolerance::lj_sums),
+      gradient(table, "lj_gradient gradient", tolerance::lj_gradient),
+      gradient_virial(table, "lj_gradient virial", tolerance::lj_sums);
+  Check stress_energy(table, "lj_stress energy", tolerance::lj_sums),
+      stress_gradient(table, "lj_stress gradient", tolerance::lj_gradient),
+      stress_virial(table, "lj_stress virial", tolerance::lj_sums), tensor(table, "lj_stress tensor", tolerance::lj_sums);
+  Check energy_bits(table, "lj_energy, lj_gradient, lj_stress: same energy", tolerance::exact);
+  Check virial_bits(table, "lj_gradient, lj_stress: same virial", tolerance::exact);
+
+  for (const auto& [name, model, configuration] : cases) {
+    const reference::Evaluation expected = evaluate_reference(model, configuration);
+    const ParticleLayout layout(configuration.species, model.species.size());
+    const AlignedArray positions = layout.to_slots(configuration.positions);
+    LennardJones interaction(model, configuration.box, layout, table);
+    // Whatever a kernel does not write must show.
+    AlignedArray g(layout.dimension(), std::numeric_limits<double>::quiet_NaN()), g_stress = g;
+    const double e = interaction.energy(positions);
+    const auto with_gradient = interaction.energy_and_gradient(positions, g);
+    const auto with_stress = interaction.energy_and_stress(positions, g_stress);
+
+    const double allowance = rounding_allowance(configuration);
+    energy.add(name, energy_deviation(e, expected) / allowance);
+    gradient_energy.add(name, energy_deviation(with_gradient.energy, expected) / allowance);
+    gradient.add(name, gradient_deviation(g, layout, expected) / allowance);
+    gradient_virial.add(name, virial_deviation(with_gradient.virial, expected) / allowance);
+    stress_energy.add(name, energy_deviation(with_stress.energy, expected) / allowance);
+    stress_gradient.add(name, gradient_deviation(g_stress, layout, expected) / allowance);
+    stress_virial.add(name, virial_deviation(with_stress.virial, expected) / allowance);
+    tensor.add(name, tensor_deviation(with_stress.virial_tensor, expected) / allowance);
+    energy_bits.add(name, !same_bits(e, with_gradient.energy) + !same_bits(e, with_stress.energy));
+    virial_bits.add(name, !same_bits(with_gradient.virial, with_stress.virial));
+  }
+  return {energy.deviation,        gradient_energy.deviation, gradient.deviation,      gradient_virial.deviation,
+          stress_energy.deviation, stress_gradient.deviation, stress_virial.deviation, tensor.deviation,
+          energy_bits.deviation,   virial_bits.deviation};
+}
+
+std::vector<Deviation> verify_vector_algebra(const kernels::KernelTable& table) {
+  Check dot(table, "dot", tolerance::vector_sum), distance(table, "distance_squared", tolerance::vector_sum),
+      second(table, "displacement_moments second", tolerance::vector_sum),
+      fourth(table, "displacement_moments fourth", tolerance::vector_sum);
+  Check difference(table, "difference", tolerance::exact), combine(table, "combine", tolerance::linear_combination),
+      axpy(table, "axpy", tolerance::linear_combination);
+  // The short ones leave each remainder of the four partial sums; the long ones show how errors grow.
+  for (const std::size_t slots : {0U, 8U, 16U, 24U, 32U, 40U, 48U, 56U, 64U, 72U, 112U, 264U, 1000U}) {
+    const std::size_t n = 3 * slots;
+    const std::string name = fmt::format("3 x {} slots", slots);
+    const AlignedArray a = random_array(n, 1), b = random_array(n, 2), c = random_array(n, 3);
+    const double p = 1.0 / 3.0, q = -1.0 / 7.0;
+
+    Sum product, square;
+    for (std::size_t i = 0; i < n; ++i) {
+      product.add(static_cast<long double>(a[i]) * b[i]);
+      square.add((static_cast<long double>(a[i]) - b[i]) * (static_cast<long double>(a[i]) - b[i]));
+    }
+    dot.add(name, relative(table.dot(a.data(), b.data(), n), product.value, product.magnitude));
+    distance.add(name, relative(table.distance_squared(a.data(), b.data(), n), square.value, square.magnitude));
+
+    Sum squares, fourths;
+    for (std::size_t i = 0; i < slots; ++i) {
+      long double r2 = 0.0L;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const long double d = static_cast<long double>(b[axis * slots + i]) - a[axis * slots + i];
+        r2 += d * d;
+      }
+      squares.add(r2);
+      fourths.add(r2 * r2);
+    }
+    const kernels::DisplacementMoments moments = table.displacement_moments(a.data(), b.data(), slots);
+    second.add(name, relative(moments.second, squares.value, squares.magnitude));
+    fourth.add(name, relative(moments.fourth, fourths.value, fourths.magnitude));
+
+    AlignedArray out(n, std::numeric_limits<double>::quiet_NaN());
+    table.difference(out.data(), a.data(), b.data(), n);
+    double wrong = 0.0;
+    for (std::size_t i = 0; i < n; ++i) wrong += !same_bits(out[i], a[i] - b[i]);
+    difference.add(name, wrong);
+
+    double worst = 0.0;
+    table.axpy(out.data(), a.data(), p, b.data(), n);
+    for (std::size_t i = 0; i < n; ++i) {
+      Sum expected;
+      expected.add(a[i]);
+      expected.add(static_cast<long double>(p) * b[i]);
+      worst = std::max(worst, relative(out[i], expected.value, expected.magnitude));
+    }
+    axpy.add(name, worst);
+
+    worst = 0.0;
+    table.combine(out.data(), a.data(), p, b.data(), q, c.data(), n);
+    for (std::size_t i = 0; i < n; ++i) {
+      Sum expected;
+      expected.add(a[i]);
+      expected.add(static_cast<long double>(p) * b[i]);
+      expected.add(static_cast<long double>(q) * c[i]);
+      worst = std::max(worst, relative(out[i], expected.value, expected.magnitude));
+    }
+    combine.add(name, worst);
+  }
+  return {dot.deviation,        distance.deviation, second.deviation, fourth.deviation,
+          difference.deviation, combine.deviation,  axpy.deviation};
+}
+
+std::vector<Deviation> verify_kernels(Isa isa, const std::vector<LennardJonesCase>& cases) {
+  const kernels::KernelTable& table = kernel_table(isa);
+  std::vector<Deviation> deviations = verify_lennard_jones(table, cases);
+  for (auto& deviation : verify_vector_algebra(table)) deviations.push_back(std::move(deviation));
+  return deviations;
+}
+
+}  // namespace lanescape

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "dispatch/isa.hpp"
+#include "verification/cases.hpp"
+
+namespace lanescape {
+
+// Tolerances, one per family of kernels: four to five times the worst deviation measured over lennard_jones_cases() on every
+// instruction set with GCC 12 and Clang 19, which leaves room for another compiler's order of a sum and none for a wrong term.
+namespace tolerance {
+
+// Energies, virials and tensors, relative to the sum of the absolute terms. Kernel and reference round a separation
+// differently: the one divides positions by the box and the other subtracts whole boxes, each to 2^-53 of a coordinate x, and
+// r^-12 turns an error of r into twelve times the relative error of u. A single close pair shows it in full (measured 4.8e-15
+// at x = 54, where half an ulp is 3.6e-15), a sum over many pairs less.
+inline constexpr double lj_sums = 2e-14;
+
+// Gradients, per particle and relative to the sum of its absolute pair forces. Few pairs make up the force on one particle,
+// so that nothing averages out, and r^-13 has one power more (measured 6.4e-14 at x = 25).
+inline constexpr double lj_gradient = 3e-13;
+
+// Both hold for coordinates up to this [sigma]; beyond it the rounding of positions grows in proportion, and so does what is
+// allowed: such a deviation is divided by x / position_extent.
+inline constexpr double position_extent = 60.0;
+
+// Sums of products, relative to the sum of the absolute products: 2^-53 for each addition in a row, of which SSE2 does 500 in
+// the longest case (measured 1.3e-15; adding at random gives sqrt(500) 2^-53 = 2.5e-15, one sign throughout more).
+inline constexpr double vector_sum = 5e-15;
+
+// Linear combinations, relative to the sum of the absolute terms: a rounding of each of up to two products and two sums
+// without fused operations, 4 x 2^-53 (measured 2.1e-16). A bound, hence no further factor.
+inline constexpr double linear_combination = 4.5e-16;
+
+// What the instruction sets define to the bit.
+inline constexpr double exact = 0.0;
+
+}  // namespace tolerance
+
+// The worst that one result of one kernel did.
+struct Deviation {
+  std::string kernel;      // and the result, where it has several
+  std::string isa;         // name of the table that ran
+  std::string worst_case;  // empty if no case deviated at all
+  double worst = 0.0;      // relative to what rounding scales with, or a number of wrong values where tolerance is 0
+  double tolerance = 0.0;
+  std::size_t cases = 0;
+
+  // A check that saw no case proves nothing and fails.
+  bool passed() const { return cases > 0 && worst <= tolerance; }
+};
+
+// One line for messages.
+std::string describe(const Deviation& deviation);
+
+// The Lennard-Jones kernels of a table against the scalar reference.
+std::vector<Deviation> verify_lennard_jones(const kernels::KernelTable& table, const std::vector<LennardJonesCase>& cases);
+// The vector algebra of a table against loops in long double, at lengths that leave every remainder.
+std::vector<Deviation> verify_vector_algebra(const kernels::KernelTable& table);
+// Both. Throws Error(bad_input) where the instruction set is not available.
+std::vector<Deviation> verify_kernels(Isa isa, const std::vector<LennardJonesCase>& cases);
+
+}  // namespace lanescape

@@ -1,0 +1,248 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dispatch/isa.hpp"
+#include "interaction/lennard_jones.hpp"
+#include "verification/cases.hpp"
+#include "verification/junit.hpp"
+#include "verification/kernel_checks.hpp"
+#include "verification/reference_bridge.hpp"
+
+namespace lanescape {
+namespace {
+
+using kernels::KernelTable;
+using kernels::LjInput;
+using kernels::LjOutput;
+
+const std::vector<LennardJonesCase>& every_case() {
+  static const std::vector<LennardJonesCase> cases = lennard_jones_cases();
+  return cases;
+}
+
+std::vector<LennardJonesCase> small_cases() {
+  std::vector<LennardJonesCase> cases;
+  std::copy_if(every_case().begin(), every_case().end(), std::back_inserter(cases),
+               [](const LennardJonesCase& c) { return c.configuration.size() <= 31; });
+  return cases;
+}
+
+class LennardJonesParity : public testing::TestWithParam<Isa> {
+ protected:
+  void SetUp() override {
+    const auto isas = available_isas();
+    if (std::find(isas.begin(), isas.end(), GetParam()) == isas.end())
+      GTEST_SKIP() << to_string(GetParam()) << " is not compiled in or not supported by this processor";
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(EveryIsa, LennardJonesParity, testing::Values(Isa::generic, Isa::sse2, Isa::avx2, Isa::avx512),
+                         [](const auto& tested) { return to_string(tested.param); });
+
+TEST_P(LennardJonesParity, KernelsAgreeWithTheReferenceOnEveryCase) {
+  for (const LennardJonesCase& one : every_case())
+    for (const Deviation& deviation : verify_lennard_jones(kernel_table(GetParam()), {one}))
+      EXPECT_TRUE(deviation.passed()) << one.name << ": " << describe(deviation);
+}
+
+TEST_P(LennardJonesParity, WorstDeviationsAreWithinTheDeclaredTolerances) {
+  for (const Deviation& deviation : verify_kernels(GetParam(), every_case())) {
+    RecordProperty(deviation.kernel, describe(deviation));
+    EXPECT_TRUE(deviation.passed()) << describe(deviation);
+  }
+}
+
+TEST_P(LennardJonesParity, AForcedInstructionSetIsTheOneThatRuns) {
+  const std::string name = to_string(GetParam());
+  ASSERT_EQ(choose_isa(name), GetParam());
+  const KernelTable& forced = kernel_table(choose_isa(name));
+  EXPECT_EQ(forced.name, name);
+  const std::size_t lanes = GetParam() == Isa::avx512 ? 8 : GetParam() == Isa::sse2 ? 2 : 4;
+  EXPECT_EQ(forced.lanes, lanes);
+  for (const Deviation& deviation : verify_kernels(choose_isa(name), {every_case().front()})) EXPECT_EQ(deviation.isa, name);
+  // Code of its own, not that of another instruction set under its name.
+  for (const Isa isa : available_isas())
+    if (isa != GetParam()) {
+      const KernelTable& other = kernel_table(isa);
+      EXPECT_NE(forced.lj_energy, other.lj_energy) << other.name;
+      EXPECT_NE(forced.lj_gradient, other.lj_gradient) << other.name;
+      EXPECT_NE(forced.lj_stress, other.lj_stress) << other.name;
+      EXPECT_NE(forced.dot, other.dot) << other.name;
+    }
+}
+
+TEST_P(LennardJonesParity, RepeatedEvaluationsGiveTheSameBits) {
+  for (const auto& [name, model, configuration] : every_case()) {
+    const ParticleLayout layout(configuration.species, model.species.size());
+    const AlignedArray positions = layout.to_slots(configuration.positions);
+    LennardJones interaction(model, configuration.box, layout, kernel_table(GetParam()));
+    AlignedArray first(layout.dimension()), second(layout.dimension(), 1.0);
+    const auto before = interaction.energy_and_gradient(positions, first);
+    const auto after = interaction.energy_and_gradient(positions, second);
+    EXPECT_EQ(before.energy, after.energy) << name;
+    EXPECT_EQ(before.virial, after.virial) << name;
+    EXPECT_EQ(first, second) << name;
+  }
+}
+
+TEST(LennardJonesCases, HaveNamesThatTellThemApart) {
+  std::set<std::string> names;
+  for (const LennardJonesCase& one : every_case()) EXPECT_TRUE(names.insert(one.name).second) << one.name;
+}
+
+TEST(LennardJonesCases, HaveNoPairsNearerThanTheirDescriptionSays) {
+  for (const auto& [name, model, configuration] : every_case())
+    for (std::size_t i = 0; i < configuration.size(); ++i)
+      for (std::size_t j = i + 1; j < configuration.size(); ++j) {
+        std::array<double, 3> d;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          d[axis] = std::remainder(configuration.positions[3 * i + axis] - configuration.positions[3 * j + axis],
+                                   configuration.box.length[axis]);
+        const auto a = static_cast<std::size_t>(configuration.species[i]), b = static_cast<std::size_t>(configuration.species[j]);
+        EXPECT_GT(std::hypot(d[0], d[1], d[2]), 0.7 * model.sigma[model.pair(a, b)]) << name << ": " << i << ' ' << j;
+      }
+}
+
+TEST(LennardJonesCases, RunThroughEveryImageSearchInCubesAndInOtherBoxes) {
+  std::set<std::pair<kernels::ImageSearch, bool>> met;
+  for (const auto& [name, model, configuration] : every_case()) {
+    const auto& length = configuration.box.length;
+    const bool cubic = length[0] == length[1] && length[0] == length[2];
+    met.insert({image_search(configuration.box, model.cutoff * model.sigma[0], model.images), cubic});
+  }
+  EXPECT_EQ(met.size(), 6U);
+}
+
+TEST(LennardJonesCases, CutoffEdgesAreDecidedAsTheirNamesSay) {
+  std::size_t found = 0;
+  for (const auto& [name, model, configuration] : every_case()) {
+    const bool inside = name.starts_with("pair inside the cutoff"), outside = name.starts_with("pair outside the cutoff");
+    if (!inside && !outside) continue;
+    ++found;
+    LennardJonesModel slightly_smaller = model;
+    slightly_smaller.cutoff = model.cutoff * (1.0 - 3e-12);
+    const double step =
+        evaluate_reference(model, configuration).energy - evaluate_reference(slightly_smaller, configuration).energy;
+    const double at_cutoff = 4.0 * (std::pow(2.5, -12) - std::pow(2.5, -6));
+    EXPECT_NEAR(step, inside ? at_cutoff : 0.0, 1e-12) << name;
+  }
+  EXPECT_EQ(found, 10U);
+}
+
+// The checks must be able to fail: kernels that are wrong in one place by a little.
+const KernelTable* right = nullptr;  // what the wrong kernels start from; a kernel is a plain function
+
+double energy_slightly_wrong(const LjInput& in) noexcept { return right->lj_energy(in) * (1.0 + 1e-11); }
+double energy_off_by_one_bit(const LjInput& in) noexcept { return std::nextafter(right->lj_energy(in), 1e300); }
+double energy_not_a_number(const LjInput&) noexcept { return std::numeric_limits<double>::quiet_NaN(); }
+double energy_without_shift(const LjInput& in) noexcept {
+  std::vector<kernels::LjPair> pairs(in.pairs, in.pairs + in.block_count * in.block_count);
+  for (auto& pair : pairs) pair.shift = 0.0;
+  LjInput changed = in;
+  changed.pairs = pairs.data();
+  return right->lj_energy(changed);
+}
+void gradient_wrong_in_one_component(const LjInput& in, double* gradient, LjOutput& out) noexcept {
+  right->lj_gradient(in, gradient, out);
+  if (in.slots > 0) gradient[0] *= 1.0 + 1e-10;
+}
+void gradient_with_dirty_padding(const LjInput& in, double* gradient, LjOutput& out) noexcept {
+  right->lj_gradient(in, gradient, out);
+  if (in.slots > 0) gradient[in.slots - 1] += 1e-300;
+}
+void gradient_leaving_the_last_pairs_out(const LjInput& in, double* gradient, LjOutput& out) noexcept {
+  std::vector<kernels::SpeciesBlock> blocks(in.blocks, in.blocks + in.block_count);
+  if (blocks[0].count > 1) --blocks[0].count;
+  LjInput changed = in;
+  changed.blocks = blocks.data();
+  right->lj_gradient(changed, gradient, out);
+}
+void gradient_with_wrong_virial(const LjInput& in, double* gradient, LjOutput& out) noexcept {
+  right->lj_gradient(in, gradient, out);
+  out.virial *= 1.0 - 1e-11;
+}
+void stress_with_swapped_shears(const LjInput& in, double* gradient, LjOutput& out) noexcept {
+  right->lj_stress(in, gradient, out);
+  std::swap(out.virial_tensor[3], out.virial_tensor[5]);
+}
+void stress_with_wrong_gradient(const LjInput& in, double* gradient, LjOutput& out) noexcept {
+  right->lj_stress(in, gradient, out);
+  if (in.slots > 0) gradient[2 * in.slots] = -gradient[2 * in.slots];
+}
+
+std::vector<std::string> failed_checks(const KernelTable& table) {
+  std::vector<std::string> failed;
+  for (const Deviation& deviation : verify_lennard_jones(table, small_cases()))
+    if (!deviation.passed()) failed.push_back(deviation.kernel);
+  return failed;
+}
+
+TEST(LennardJonesChecks, FailForTheResultThatIsWrongAndForNoOther) {
+  right = &kernel_table(available_isas().back());
+  const auto failed_with = [](auto KernelTable::* kernel, auto replacement) {
+    KernelTable table = *right;
+    table.*kernel = replacement;
+    return failed_checks(table);
+  };
+  using Names = std::vector<std::string>;
+  const std::string same_energy = "lj_energy, lj_gradient, lj_stress: same energy",
+                    same_virial = "lj_gradient, lj_stress: same virial";
+  EXPECT_EQ(failed_checks(*right), Names{});
+  EXPECT_EQ(failed_with(&KernelTable::lj_energy, energy_slightly_wrong), (Names{"lj_energy", same_energy}));
+  EXPECT_EQ(failed_with(&KernelTable::lj_energy, energy_not_a_number), (Names{"lj_energy", same_energy}));
+  EXPECT_EQ(failed_with(&KernelTable::lj_energy, energy_without_shift), (Names{"lj_energy", same_energy}));
+  EXPECT_EQ(failed_with(&KernelTable::lj_gradient, gradient_wrong_in_one_component), Names{"lj_gradient gradient"});
+  EXPECT_EQ(failed_with(&KernelTable::lj_gradient, gradient_with_dirty_padding), Names{"lj_gradient gradient"});
+  EXPECT_EQ(failed_with(&KernelTable::lj_gradient, gradient_leaving_the_last_pairs_out),
+            (Names{"lj_gradient energy", "lj_gradient gradient", "lj_gradient virial", same_energy, same_virial}));
+  EXPECT_EQ(failed_with(&KernelTable::lj_gradient, gradient_with_wrong_virial), (Names{"lj_gradient virial", same_virial}));
+  EXPECT_EQ(failed_with(&KernelTable::lj_stress, stress_with_swapped_shears), Names{"lj_stress tensor"});
+  EXPECT_EQ(failed_with(&KernelTable::lj_stress, stress_with_wrong_gradient), Names{"lj_stress gradient"});
+}
+
+TEST(LennardJonesChecks, SeeASingleBitBetweenTheKernels) {
+  right = &kernel_table(available_isas().back());
+  KernelTable table = *right;
+  table.lj_energy = energy_off_by_one_bit;
+  // Where no pair is in range the energy is exactly zero, and one bit of it is no rounding error.
+  std::vector<LennardJonesCase> dense = small_cases();
+  std::erase_if(dense, [](const LennardJonesCase& c) { return c.configuration.size() < 8; });
+  std::vector<std::string> failed;
+  for (const Deviation& deviation : verify_lennard_jones(table, dense))
+    if (!deviation.passed()) failed.push_back(deviation.kernel);
+  EXPECT_EQ(failed, std::vector<std::string>{"lj_energy, lj_gradient, lj_stress: same energy"});
+}
+
+TEST(LennardJonesChecks, DoNotPassWithoutASingleCase) {
+  for (const Deviation& deviation : verify_lennard_jones(kernel_table(available_isas().back()), {}))
+    EXPECT_FALSE(deviation.passed()) << deviation.kernel;
+}
+
+TEST(Junit, ListsEveryCheckAndEscapesWhatXmlReserves) {
+  std::ostringstream out;
+  write_junit(out, {{"lj_energy", "avx2", "", 0.0, 1e-14, 3}, {"dot", "sse2", "a<b & \"c\"\n", 1.0, 1e-15, 2}});
+  EXPECT_EQ(out.str(),
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+            "<testsuites>\n"
+            "  <testsuite name=\"lanescape verify\" tests=\"2\" failures=\"1\" errors=\"0\" skipped=\"0\">\n"
+            "    <testcase classname=\"avx2\" name=\"lj_energy\"/>\n"
+            "    <testcase classname=\"sse2\" name=\"dot\">\n"
+            "      <failure message=\"dot on sse2: worst deviation 1, allowed 1e-15, of 2 cases the worst is "
+            "&apos;a&lt;b &amp; &quot;c&quot;&#10;&apos;\"/>\n"
+            "    </testcase>\n"
+            "  </testsuite>\n"
+            "</testsuites>\n");
+}
+
+}  // namespace
+}  // namespace lanescape

@@ -1,0 +1,105 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "dispatch/isa.hpp"
+#include "verification/kernel_checks.hpp"
+
+namespace lanescape {
+namespace {
+
+using kernels::KernelTable;
+
+class VectorAlgebraParity : public testing::TestWithParam<Isa> {
+ protected:
+  void SetUp() override {
+    const auto isas = available_isas();
+    if (std::find(isas.begin(), isas.end(), GetParam()) == isas.end())
+      GTEST_SKIP() << to_string(GetParam()) << " is not compiled in or not supported by this processor";
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(EveryIsa, VectorAlgebraParity, testing::Values(Isa::generic, Isa::sse2, Isa::avx2, Isa::avx512),
+                         [](const auto& tested) { return to_string(tested.param); });
+
+TEST_P(VectorAlgebraParity, AgreesWithPlainLoopsAtEveryLength) {
+  for (const Deviation& deviation : verify_vector_algebra(kernel_table(GetParam()))) {
+    EXPECT_TRUE(deviation.passed()) << describe(deviation);
+    EXPECT_EQ(deviation.isa, to_string(GetParam()));
+  }
+}
+
+TEST_P(VectorAlgebraParity, PeakMeasurementDoesTheArithmeticItCounts) {
+  const KernelTable& table = kernel_table(GetParam());
+  double sink = 0.0;
+  const double operations = table.peak_rounds(1000, &sink);
+  EXPECT_EQ(operations, 1000.0 * 12.0 * 2.0 * static_cast<double>(table.lanes));
+  // Chain k starts at 1 + k and moves towards 1 by a factor 0.999999 a round.
+  const double expected = (12.0 + 66.0 * std::pow(0.999999, 1000)) * static_cast<double>(table.lanes);
+  EXPECT_NEAR(sink, expected, 1e-9 * expected);
+}
+
+// The checks must be able to fail: each kernel is replaced by one that is wrong in one place by a little.
+const KernelTable* right = nullptr;  // what the wrong kernels start from; a kernel is a plain function
+
+double wrong_dot(const double* a, const double* b, std::size_t n) noexcept { return right->dot(a, b, n) * (1.0 + 1e-12); }
+double dot_without_last(const double* a, const double* b, std::size_t n) noexcept {
+  return n == 0 ? 0.0 : right->dot(a, b, n) - a[n - 1] * b[n - 1];
+}
+double wrong_distance(const double* a, const double* b, std::size_t n) noexcept {
+  return right->distance_squared(a, b, n) * (1.0 - 1e-13);
+}
+void wrong_difference(double* out, const double* a, const double* b, std::size_t n) noexcept {
+  right->difference(out, a, b, n);
+  if (n > 0) out[n - 1] = std::nextafter(out[n - 1], 0.0);
+}
+void wrong_combine(double* out, const double* x, double a, const double* u, double b, const double* v, std::size_t n) noexcept {
+  right->combine(out, x, a, u, b, v, n);
+  if (n > 0) out[n - 1] += 1e-14;
+}
+void wrong_axpy(double* out, const double* x, double a, const double* u, std::size_t n) noexcept {
+  right->axpy(out, x, a, u, n);
+  if (n > 0) out[0] = std::nan("");
+}
+kernels::DisplacementMoments wrong_second(const double* a, const double* b, std::size_t slots) noexcept {
+  auto moments = right->displacement_moments(a, b, slots);
+  moments.second *= 1.0 + 1e-13;
+  return moments;
+}
+kernels::DisplacementMoments wrong_fourth(const double* a, const double* b, std::size_t slots) noexcept {
+  auto moments = right->displacement_moments(a, b, slots);
+  moments.fourth *= 1.0 + 1e-13;
+  return moments;
+}
+
+std::vector<std::string> failed_checks(const KernelTable& table) {
+  std::vector<std::string> failed;
+  for (const Deviation& deviation : verify_vector_algebra(table))
+    if (!deviation.passed()) failed.push_back(deviation.kernel);
+  return failed;
+}
+
+TEST(VectorAlgebraChecks, FailForTheKernelThatIsWrongAndForNoOther) {
+  right = &kernel_table(available_isas().back());
+  const auto failed_with = [](auto KernelTable::* kernel, auto replacement) {
+    KernelTable table = *right;
+    table.*kernel = replacement;
+    return failed_checks(table);
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(failed_checks(*right), Names{});
+  EXPECT_EQ(failed_with(&KernelTable::dot, wrong_dot), Names{"dot"});
+  EXPECT_EQ(failed_with(&KernelTable::dot, dot_without_last), Names{"dot"});
+  EXPECT_EQ(failed_with(&KernelTable::distance_squared, wrong_distance), Names{"distance_squared"});
+  EXPECT_EQ(failed_with(&KernelTable::difference, wrong_difference), Names{"difference"});
+  EXPECT_EQ(failed_with(&KernelTable::combine, wrong_combine), Names{"combine"});
+  EXPECT_EQ(failed_with(&KernelTable::axpy, wrong_axpy), Names{"axpy"});
+  EXPECT_EQ(failed_with(&KernelTable::displacement_moments, wrong_second), Names{"displacement_moments second"});
+  EXPECT_EQ(failed_with(&KernelTable::displacement_moments, wrong_fourth), Names{"displacement_moments fourth"});
+}
+
+}  // namespace
+}  // namespace lanescape

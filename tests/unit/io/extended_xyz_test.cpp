@@ -1,0 +1,282 @@
+#include "io/extended_xyz.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <ostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "temporary_folder.hpp"
+
+namespace lanescape {
+namespace {
+
+using testing::expect_contains;
+using testing::refusal;
+using testing::TemporaryFolder;
+
+const std::string comment = "Lattice=\"4 0 0 0 5 0 0 0 6\" Properties=species:S:1:pos:R:3 pbc=\"T T T\"";
+const std::string frame = "2\n" + comment + "\nNi 0 1 2\nP -3.5 1e-3 17\n";
+
+std::string with_lattice(const std::string& lattice) {
+  return "1\nLattice=\"" + lattice + "\" Properties=species:S:1:pos:R:3\nNi 0 1 2\n";
+}
+std::string with_properties(const std::string& properties) {
+  return "1\nLattice=\"4 0 0 0 5 0 0 0 6\" Properties=" + properties + "\nNi 0 1 2\n";
+}
+std::string with_pbc(const std::string& pbc) {
+  return "1\nLattice=\"4 0 0 0 5 0 0 0 6\" Properties=species:S:1:pos:R:3 pbc=" + pbc + "\nNi 0 1 2\n";
+}
+std::string with_particle(const std::string& line) { return "1\n" + comment + "\n" + line + "\n"; }
+
+Frame read(const std::string& content, const LennardJonesModel& model = kob_andersen()) {
+  const TemporaryFolder folder;
+  return read_single_frame(folder.file("frame.extxyz", content), model);
+}
+
+TEST(ExtendedXyz, ReadsBoxSpeciesAndUnwrappedPositions) {
+  const Configuration configuration = read(frame).configuration;
+  EXPECT_EQ(configuration.box, (Box{{4.0, 5.0, 6.0}}));
+  EXPECT_EQ(configuration.species, (std::vector<int>{0, 1}));
+  EXPECT_EQ(configuration.positions, (std::vector<double>{0.0, 1.0, 2.0, -3.5, 1e-3, 17.0}));
+}
+
+TEST(ExtendedXyz, KeysOfTheContractIgnoreCaseAndPbcMayBeAbsent) {
+  const Frame result = read("1\nLATTICE=\"4 0 0 0 5 0 0 0 6\" properties=species:S:1:pos:R:3 PBC='true T t'\nNi 0 1 2\n");
+  EXPECT_EQ(result.configuration.box, (Box{{4.0, 5.0, 6.0}}));
+  EXPECT_TRUE(result.info.empty());
+  EXPECT_EQ(read(with_lattice("4 0 0 0 5 0 0 0 6")).configuration.size(), 1u);
+}
+
+TEST(ExtendedXyz, OtherPairsOfTheCommentLineAreKeptAsText) {
+  const Frame result =
+      read("1\n" + comment + " energy=-1.5 note=\"say \\\"hi\\\" = \\\\\" bare stress=[[1, 2], [3, 4]] spaced = x\nNi 0 1 2\n");
+  const std::map<std::string, std::string> expected{
+      {"energy", "-1.5"}, {"note", "say \"hi\" = \\"}, {"bare", "T"}, {"stress", "[[1, 2], [3, 4]]"}, {"spaced", "x"}};
+  EXPECT_EQ(result.info, expected);
+}
+
+TEST(ExtendedXyz, OtherColumnsAreSkippedInAnyOrder) {
+  const Frame result = read(
+      "1\nLattice=\"4 0 0 0 5 0 0 0 6\" Properties=id:I:1:pos:R:3:forces:R:3:species:S:1:fixed:L:1\n"
+      "7 0.5 1 2 nan inf word P T\n");
+  EXPECT_EQ(result.configuration.species, (std::vector<int>{1}));
+  EXPECT_EQ(result.configuration.positions, (std::vector<double>{0.5, 1.0, 2.0}));
+}
+
+TEST(ExtendedXyz, TabsCarriageReturnsPlusSignsAndAMissingLastLineEndAreAccepted) {
+  const Frame result = read("1 \r\n" + comment + "\r\n\tNi  +0.5\t1 2 \r\n\r\n \n");
+  EXPECT_EQ(result.configuration.positions, (std::vector<double>{0.5, 1.0, 2.0}));
+  EXPECT_EQ(read("1\n" + comment + "\nNi 0.5 1 2").configuration.size(), 1u);
+}
+
+TEST(ExtendedXyz, RoundOffOffTheDiagonalIsOrthorhombic) {
+  EXPECT_EQ(read(with_lattice("4 4e-12 0 0 5 -5e-12 0 0 6")).configuration.box, (Box{{4.0, 5.0, 6.0}}));
+}
+
+TEST(ExtendedXyz, FramesAreReadOneByOne) {
+  const TemporaryFolder folder;
+  ExtendedXyzReader reader(folder.file("two.extxyz", frame + "1\n" + comment + "\nP 1 1 1\n\n"), kob_andersen());
+  EXPECT_EQ(reader.next()->configuration.size(), 2u);
+  EXPECT_EQ(reader.next()->configuration.size(), 1u);
+  EXPECT_FALSE(reader.next().has_value());
+  EXPECT_FALSE(reader.next().has_value());
+}
+
+TEST(ExtendedXyz, AllFramesOfAFileAreRead) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(read_frames(folder.file("three.extxyz", frame + frame + frame), kob_andersen()).size(), 3u);
+}
+
+TEST(ExtendedXyz, ASecondFrameIsRefusedWhereOneIsAllowed) {
+  const TemporaryFolder folder;
+  const auto path = folder.file("two.extxyz", frame + frame);
+  const std::string message = refusal([&] { read_single_frame(path, kob_andersen()); });
+  expect_contains(message, path.string());
+  expect_contains(message, "exactly one is allowed");
+}
+
+struct BadFile {
+  const char* name;
+  std::string content;
+  int line;              // that the message names; 0: the file only
+  std::string mentions;  // what is wrong or allowed
+};
+void PrintTo(const BadFile& bad, std::ostream* out) { *out << bad.name; }
+
+class ExtendedXyzRefusal : public ::testing::TestWithParam<BadFile> {};
+
+TEST_P(ExtendedXyzRefusal, NamesFileLineAndWhatIsAllowed) {
+  const BadFile& bad = GetParam();
+  const TemporaryFolder folder;
+  const auto path = folder.file("bad.extxyz", bad.content);
+  const std::string message = refusal([&] { read_frames(path, kob_andersen()); });
+  expect_contains(message, bad.line == 0 ? path.string() + ": " : path.string() + ":" + std::to_string(bad.line) + ": ");
+  expect_contains(message, bad.mentions);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, ExtendedXyzRefusal,
+    ::testing::Values(
+        BadFile{"Empty", "", 0, "at least one"}, BadFile{"Blank", "\n \n", 2, "at least one"},
+        BadFile{"NulInCount", std::string("2\0\n", 3), 1, "binary"},
+        BadFile{"NulInParticle", "1\n" + comment + "\nNi 0 1 " + std::string("2\0\n", 3), 3, "binary"},
+        BadFile{"EndlessLine", std::string(3u << 20, 'x'), 1, "too long"}, BadFile{"CountIsAWord", "two\n" + comment, 1, "'two'"},
+        BadFile{"CountIsNegative", "-2\n" + comment, 1, "integer from 1 to 10000000"},
+        BadFile{"CountIsZero", "0\n" + comment + "\n", 1, "from 1"}, BadFile{"CountIsFractional", "2.0\n" + comment, 1, "'2.0'"},
+        BadFile{"CountIsAbsurd", "10000001\n" + comment, 1, "10000000"},
+        BadFile{"CountOverflows", "99999999999999999999999\n" + comment, 1, "10000000"},
+        BadFile{"CountWithCompany", "2 3\n" + comment, 1, "'2 3'"},
+        BadFile{"CountHasControlCharacters", "\x1b[2J\n" + comment, 1, "?[2J"}, BadFile{"EndsAfterCount", "2\n", 1, "comment line"},
+        BadFile{"NoParticles", "2\n" + comment + "\n", 2, "after 0 of 2"},
+        BadFile{"FewerParticles", "3\n" + comment + "\nNi 0 1 2\nNi 1 1 2\n", 4, "after 2 of 3"},
+        BadFile{"ManyClaimedFewThere", "10000000\n" + comment + "\nNi 0 1 2\n", 3, "after 1 of 10000000"},
+        BadFile{"BlankParticleLine", "2\n" + comment + "\nNi 0 1 2\n\n", 4, "0 columns"},
+        BadFile{"TrailingGarbage", frame + "\nthe end\n", 6, "only blank lines"},
+        BadFile{"MoreParticles", frame + "Ni 1 1 1\n", 5, "'Ni 1 1 1'"},
+        BadFile{"BadSecondFrame", frame + "1\n" + comment + "\nNi 0 1 x\n", 7, "'x'"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+INSTANTIATE_TEST_SUITE_P(
+    Comments, ExtendedXyzRefusal,
+    ::testing::Values(
+        BadFile{"NoLattice", "1\nProperties=species:S:1:pos:R:3\nNi 0 1 2\n", 2, "no Lattice"},
+        BadFile{"PlainXyz", "1\na liquid, the first of a series\nNi 0 1 2\n", 2, "Lattice"},
+        BadFile{"EmptyComment", "1\n\nNi 0 1 2\n", 2, "no Lattice"},
+        BadFile{"NoProperties", "1\nLattice=\"4 0 0 0 5 0 0 0 6\"\nNi 0 1 2\n", 2, "no Properties=species:S:1:pos:R:3"},
+        BadFile{"OpenQuote", "1\nLattice=\"4 0 0 0 5 0 0 0 6 Properties=species:S:1:pos:R:3\n", 2, "quote without an end"},
+        BadFile{"OpenBracket", "1\n" + comment + " a=[1 2\n", 2, "bracket without an end"},
+        BadFile{"KeyTwice", "1\n" + comment + " lattice=\"4 0 0 0 5 0 0 0 6\"\n", 2, "lattice is given twice"},
+        BadFile{"NoKey", "1\n" + comment + " =3\n", 2, "without a key"},
+        BadFile{"NoValue", "1\n" + comment + " energy=\n", 2, "without a value"},
+        BadFile{"LatticeTooShort", with_lattice("4 5 6"), 2, "has 3 numbers"},
+        BadFile{"LatticeTooLong", with_lattice("4 0 0 0 5 0 0 0 6 0"), 2, "more than 9"},
+        BadFile{"LatticeIsAWord", with_lattice("4 0 0 0 five 0 0 0 6"), 2, "'five'"},
+        BadFile{"LatticeIsNan", with_lattice("4 0 0 0 nan 0 0 0 6"), 2, "'nan'"},
+        BadFile{"LatticeIsInfinite", with_lattice("inf 0 0 0 5 0 0 0 6"), 2, "'inf'"},
+        BadFile{"LatticeIsZero", with_lattice("4 0 0 0 0 0 0 0 6"), 2, "edge 2 is 0"},
+        BadFile{"LatticeIsNegative", with_lattice("4 0 0 0 5 0 0 0 -6"), 2, "edge 3 is -6"},
+        BadFile{"LatticeIsTriclinic", with_lattice("4 0 0 1 5 0 0 0 6"), 2, "not orthorhombic"},
+        BadFile{"LatticeIsSlightlyTriclinic", with_lattice("4 0 0 0 5 0 0 6.1e-12 6"), 2, "not orthorhombic"},
+        BadFile{"PropertiesWithoutSpecies", with_properties("pos:R:3"), 2, "species 0 times"},
+        BadFile{"PropertiesWithoutPositions", with_properties("species:S:1"), 2, "pos 0 times"},
+        BadFile{"PropertiesWithTwoPositions", with_properties("species:S:1:pos:R:3:pos:R:3"), 2, "pos 2 times"},
+        BadFile{"PositionsOfIntegers", with_properties("species:S:1:pos:I:3"), 2, "pos:I:3"},
+        BadFile{"FlatPositions", with_properties("species:S:1:pos:R:2"), 2, "pos:R:2"},
+        BadFile{"NumberedSpecies", with_properties("species:I:1:pos:R:3"), 2, "species:I:1"},
+        BadFile{"UnknownColumnType", with_properties("species:S:1:pos:R:3:mass:X:1"), 2, "types S, R, I, L"},
+        BadFile{"NoColumns", with_properties("species:S:1:pos:R:3:mass:R:0"), 2, "mass:R:0"},
+        BadFile{"TooManyColumns", with_properties("species:S:1:pos:R:3:mass:R:18446744073709551615"), 2, "at most 1000"},
+        BadFile{"BrokenTriplet", with_properties("species:S:1:pos:R"), 2, "triplets"},
+        BadFile{"PbcOpenAlongOneAxis", with_pbc("\"T T F\""), 2, "pbc \"T T F\""},
+        BadFile{"PbcOfOneAxis", with_pbc("T"), 2, "\"T T T\""}, BadFile{"PbcEmpty", with_pbc("\"\""), 2, "\"T T T\""}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+INSTANTIATE_TEST_SUITE_P(Particles, ExtendedXyzRefusal,
+                         ::testing::Values(BadFile{"TooFewColumns", with_particle("Ni 0 1"), 3, "3 columns"},
+                                           BadFile{"TooManyColumns", with_particle("Ni 0 1 2 3"), 3, "5 columns"},
+                                           BadFile{"UnknownSpecies", with_particle("Xx 0 1 2"), 3,
+                                                   "'Xx': model kob-andersen has Ni, P"},
+                                           BadFile{"SpeciesInLowerCase", with_particle("ni 0 1 2"), 3, "'ni'"},
+                                           BadFile{"CoordinateIsAWord", with_particle("Ni 0 1 2x"), 3, "'2x'"},
+                                           BadFile{"CoordinateIsNan", with_particle("Ni 0 nan 2"), 3, "'nan'"},
+                                           BadFile{"CoordinateIsInfinite", with_particle("Ni 0 1 -inf"), 3, "'-inf'"},
+                                           BadFile{"CoordinateOverflows", with_particle("Ni 0 1 1e400"), 3, "'1e400'"},
+                                           BadFile{"CoordinateIsHuge", with_particle("Ni 4.1e6 1 2"), 3, "box lengths"},
+                                           BadFile{"TwoSigns", with_particle("Ni +-1 1 2"), 3, "'+-1'"}),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+TEST(ExtendedXyz, AMissingFileIsRefusedByName) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "absent.extxyz";
+  const std::string message = refusal([&] { read_single_frame(path, kob_andersen()); });
+  expect_contains(message, path.string());
+  expect_contains(message, "no such file");
+}
+
+TEST(ExtendedXyz, AFolderIsRefusedByName) {
+  const TemporaryFolder folder;
+  const std::string message = refusal([&] { read_single_frame(folder.path(), kob_andersen()); });
+  expect_contains(message, folder.path().string());
+  expect_contains(message, "folder");
+}
+
+TEST(ExtendedXyz, AnUnreadableFileIsRefusedByName) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root reads every file";
+  const TemporaryFolder folder;
+  const auto path = folder.file("secret.extxyz", frame);
+  std::filesystem::permissions(path, std::filesystem::perms::none);
+  expect_contains(refusal([&] { read_single_frame(path, kob_andersen()); }), path.string() + ": it cannot be opened");
+}
+
+TEST(ExtendedXyz, EveryPrefixOfAFileIsRefusedOrEndsInTheLastNumber) {
+  const TemporaryFolder folder;
+  // Cut inside the last coordinate a file is still well formed; before it, never.
+  for (std::size_t length = 0; length + 3 < frame.size(); ++length) {
+    const auto path = folder.file("cut.extxyz", frame.substr(0, length));
+    refusal([&] { read_single_frame(path, kob_andersen()); });
+  }
+}
+
+Configuration awkward_configuration() {
+  Configuration configuration;
+  configuration.box.length = {4.481404746557165, 1.0 / 3.0 * 16.0, 7.0};
+  configuration.species = {1, 0, 0};
+  configuration.positions = {0.1, -0.0, 5e-324, 1.0 / 3.0, 0.30000000000000004, 4.35e6, -1e-17, 2.2250738585072014e-308, 6.99};
+  return configuration;
+}
+
+TEST(ExtendedXyz, WrittenFramesReadBackBitForBit) {
+  const Configuration written = awkward_configuration();
+  const std::map<std::string, std::string> info{{"energy", "-1.25"}, {"note", "two words"}, {"quoted", "a \"b\" \\ c"},
+                                                {"empty", ""},       {"lines", "one\ntwo"}, {"list", "[1, 2]"}};
+  std::ostringstream out;
+  write_frame(out, written, kob_andersen(), info);
+  const Frame result = read(out.str());
+  EXPECT_EQ(result.configuration.box, written.box);
+  EXPECT_EQ(result.configuration.species, written.species);
+  EXPECT_EQ(result.configuration.positions, written.positions);
+  EXPECT_TRUE(std::signbit(result.configuration.positions[1]));
+  EXPECT_EQ(result.info, info);
+}
+
+TEST(ExtendedXyz, WrittenFramesFollowEachOther) {
+  std::ostringstream out;
+  for (int i = 0; i < 2; ++i) write_frame(out, awkward_configuration(), kob_andersen(), {});
+  const TemporaryFolder folder;
+  EXPECT_EQ(read_frames(folder.file("two.extxyz", out.str()), kob_andersen()).size(), 2u);
+}
+
+TEST(ExtendedXyz, ForcesAreAColumnOfThree) {
+  Configuration configuration;
+  configuration.box.length = {4.0, 5.0, 6.0};
+  configuration.species = {0};
+  configuration.positions = {1.0, 2.0, 3.5};
+  const std::vector<double> forces{0.1, -7.0, 1e30};
+  std::ostringstream out;
+  write_frame(out, configuration, kob_andersen(), {{"step", "3"}}, &forces);
+  EXPECT_EQ(out.str(),
+            "1\nLattice=\"4 0 0 0 5 0 0 0 6\" Properties=species:S:1:pos:R:3:forces:R:3 pbc=\"T T T\" step=3\n"
+            "Ni 1 2 3.5 0.1 -7 1e+30\n");
+  EXPECT_EQ(read(out.str()).configuration.positions, configuration.positions);
+}
+
+TEST(ExtendedXyz, WhatCouldNotBeReadBackIsNotWritten) {
+  const Configuration sound = awkward_configuration();
+  const std::vector<double> short_forces(8, 0.0);
+  std::ostringstream out;
+  expect_contains(refusal([&] { write_frame(out, sound, kob_andersen(), {{"LATTICE", "x"}}); }), "'LATTICE'");
+  expect_contains(refusal([&] { write_frame(out, sound, kob_andersen(), {{"two words", "x"}}); }), "'two words'");
+  expect_contains(refusal([&] { write_frame(out, sound, kob_andersen(), {{"", "x"}}); }), "''");
+  expect_contains(refusal([&] { write_frame(out, sound, kob_andersen(), {{"bell", "\a"}}); }), "bell");
+  expect_contains(refusal([&] { write_frame(out, sound, kob_andersen(), {}, &short_forces); }), "8 force components");
+  expect_contains(refusal([&] { write_frame(out, sound, lennard_jones(), {}); }), "model lennard-jones");
+  expect_contains(refusal([&] { write_frame(out, Configuration{}, kob_andersen(), {}); }), "0 particles");
+  EXPECT_EQ(out.str(), "");
+}
+
+}  // namespace
+}  // namespace lanescape

@@ -1,0 +1,211 @@
+#include "io/model_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <ostream>
+#include <sstream>
+#include <string>
+
+#include "temporary_folder.hpp"
+
+namespace lanescape {
+namespace {
+
+using testing::expect_contains;
+using testing::refusal;
+using testing::TemporaryFolder;
+
+const std::string kind = "kind = 'lennard-jones'\n";
+const std::string species = "[[species]]\nname = 'Ni'\n[[species]]\nname = 'P'\n";  // 4 lines
+const std::string pairs =
+    "[[pair]]\nspecies = ['Ni', 'Ni']\nepsilon = 1\nsigma = 1\n"
+    "[[pair]]\nspecies = ['P', 'Ni']\nepsilon = 1.5\nsigma = 0.8\n"
+    "[[pair]]\nspecies = ['P', 'P']\nepsilon = 0.5\nsigma = 0.88\n";
+
+LennardJonesModel read(const std::string& content) {
+  const TemporaryFolder folder;
+  return read_model_file(folder.file("mixture.toml", content));
+}
+
+void expect_equal(const LennardJonesModel& a, const LennardJonesModel& b) {
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.epsilon, b.epsilon);
+  EXPECT_EQ(a.sigma, b.sigma);
+  EXPECT_EQ(a.cutoff, b.cutoff);
+  EXPECT_EQ(a.truncation, b.truncation);
+  EXPECT_EQ(a.images, b.images);
+  ASSERT_EQ(a.species.size(), b.species.size());
+  for (std::size_t s = 0; s < a.species.size(); ++s) {
+    EXPECT_EQ(a.species[s].name, b.species[s].name);
+    EXPECT_EQ(a.species[s].mass, b.species[s].mass);
+    EXPECT_EQ(a.species[s].fraction, b.species[s].fraction);
+  }
+}
+
+TEST(ModelFile, KobAndersenFromAFileIsTheNamedModel) {
+  const LennardJonesModel model = read(
+      "kind = \"lennard-jones\"  # the only kind\nname = \"kob-andersen\"\ncutoff = 2.5\ntruncation = \"shifted\"\nimages = "
+      "\"all\"\n"
+      "[[species]]\nname = \"Ni\"\nmass = 1.0\nfraction = 0.8\n[[species]]\nname = \"P\"\nfraction = 0.2\n" +
+      pairs);
+  expect_equal(model, kob_andersen());
+}
+
+TEST(ModelFile, WhatIsLeftOutHasItsDefault) {
+  const LennardJonesModel model = read(kind + species + pairs);
+  EXPECT_EQ(model.name, "mixture");
+  EXPECT_EQ(model.cutoff, 2.5);
+  EXPECT_EQ(model.truncation, Truncation::shifted);
+  EXPECT_EQ(model.images, ImageRule::all);
+  for (const Species& s : model.species) {
+    EXPECT_EQ(s.mass, 1.0);
+    EXPECT_EQ(s.fraction, 0.5);
+  }
+}
+
+TEST(ModelFile, EveryOptionIsRead) {
+  const LennardJonesModel model = read(kind + "cutoff = 3\ntruncation = 'tail'\nimages = 'minimum'\n" + species + pairs);
+  EXPECT_EQ(model.cutoff, 3.0);
+  EXPECT_EQ(model.truncation, Truncation::tail);
+  EXPECT_EQ(model.images, ImageRule::minimum);
+}
+
+TEST(ModelFile, APairInEitherOrderFillsBothTriangles) {
+  const LennardJonesModel model = read(kind + species + pairs);
+  EXPECT_EQ(model.epsilon, (std::vector<double>{1.0, 1.5, 1.5, 0.5}));
+  EXPECT_EQ(model.sigma, (std::vector<double>{1.0, 0.8, 0.8, 0.88}));
+}
+
+TEST(ModelFile, WrittenModelsReadBackBitForBit) {
+  LennardJonesModel model = kob_andersen();
+  model.name = "a \"quoted\" \\ name";
+  model.species[0] = {"it's", 1.0 / 3.0, 0.30000000000000004};
+  model.species[1].fraction = 0.7;
+  model.epsilon[1] = model.epsilon[2] = 1e22;
+  model.epsilon[3] = 0.0;
+  model.sigma[0] = 5e-324;
+  model.cutoff = 2.0;
+  model.truncation = Truncation::plain;
+  model.images = ImageRule::minimum;
+  std::ostringstream out;
+  write_model_file(out, model);
+  expect_equal(read(out.str()), model);
+}
+
+TEST(ModelFile, AModelTheReaderWouldRefuseIsNotWritten) {
+  LennardJonesModel spaced = lennard_jones(), full = kob_andersen(), broken = lennard_jones();
+  spaced.species[0].name = "two words";
+  full.species[1].fraction = 1.0;
+  broken.sigma[0] = std::numeric_limits<double>::quiet_NaN();
+  std::ostringstream out;
+  expect_contains(refusal([&] { write_model_file(out, spaced); }), "model lennard-jones");
+  expect_contains(refusal([&] { write_model_file(out, full); }), "fractions");
+  expect_contains(refusal([&] { write_model_file(out, broken); }), "Ar-Ar");
+  EXPECT_EQ(out.str(), "");
+}
+
+struct BadModel {
+  const char* name;
+  std::string content;
+  int line;
+  std::string mentions;
+};
+void PrintTo(const BadModel& bad, std::ostream* out) { *out << bad.name; }
+
+class ModelFileRefusal : public ::testing::TestWithParam<BadModel> {};
+
+TEST_P(ModelFileRefusal, NamesFileLineAndWhatIsAllowed) {
+  const BadModel& bad = GetParam();
+  const TemporaryFolder folder;
+  const auto path = folder.file("bad.toml", bad.content);
+  const std::string message = refusal([&] { read_model_file(path); });
+  expect_contains(message, path.string() + ":" + std::to_string(bad.line) + ": ");
+  expect_contains(message, bad.mentions);
+}
+
+std::string pair_section(const std::string& names, const std::string& epsilon = "1", const std::string& sigma = "1") {
+  return "[[pair]]\nspecies = " + names + "\nepsilon = " + epsilon + "\nsigma = " + sigma + "\n";
+}
+std::string one_species(const std::string& lines) { return kind + "[[species]]\nname = 'Ar'\n" + lines; }
+const std::string argon = one_species("");  // 3 lines
+
+INSTANTIATE_TEST_SUITE_P(
+    Header, ModelFileRefusal,
+    ::testing::Values(BadModel{"BrokenToml", "kind = \n", 1, "TOML"}, BadModel{"Binary", std::string("\0\1\2", 3), 1, "TOML"},
+                      BadModel{"KeyTwice", kind + kind, 2, "TOML"}, BadModel{"NoKind", species + pairs, 1, "'kind' is missing"},
+                      BadModel{"UnknownKind", "\nkind = 'morse'\n", 2, "allowed is lennard-jones"},
+                      BadModel{"KindIsNumber", "kind = 1\n", 1, "kind"},
+                      BadModel{"UnknownKey", kind + "cut = 2.5\n" + species + pairs, 2, "unknown key 'cut': allowed are kind"},
+                      BadModel{"EmptyName", kind + "name = ''\n" + species + pairs, 2, "name"},
+                      BadModel{"CutoffIsZero", kind + "cutoff = 0\n" + species + pairs, 2, "above 0"},
+                      BadModel{"CutoffIsNan", kind + "cutoff = nan\n" + species + pairs, 2, "finite"},
+                      BadModel{"CutoffIsText", kind + "cutoff = '2.5'\n" + species + pairs, 2, "no number"},
+                      BadModel{"UnknownTruncation", kind + "truncation = 'cut'\n" + species + pairs, 2, "shifted, plain, tail"},
+                      BadModel{"UnknownImages", kind + "images = 'some'\n" + species + pairs, 2, "all, minimum"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+INSTANTIATE_TEST_SUITE_P(
+    Species, ModelFileRefusal,
+    ::testing::Values(BadModel{"None", kind + pairs, 1, "'species' is missing"},
+                      BadModel{"IsText", kind + "species = 'Ni'\n" + pairs, 2, "[[species]]"},
+                      BadModel{"IsListOfTexts", kind + "species = ['Ni']\n" + pairs, 2, "[[species]]"},
+                      BadModel{"IsEmptyList", kind + "species = []\n" + pairs, 2, "[[species]]"},
+                      BadModel{"NoName", kind + "[[species]]\nmass = 1\n" + pairs, 2, "'name' is missing"},
+                      BadModel{"UnknownKey", one_species("charge = 1\n"), 4,
+                               "unknown key 'charge': allowed are name, mass, fraction"},
+                      BadModel{"BlankInName", kind + "[[species]]\nname = 'N i'\n", 3, "blanks"},
+                      BadModel{"Twice", kind + "[[species]]\nname = 'Ni'\n[[species]]\nname = 'Ni'\n" + pairs, 5, "given twice"},
+                      BadModel{"MassIsZero", one_species("mass = 0\n"), 4, "above 0"},
+                      BadModel{"MassIsInfinite", one_species("mass = inf\n"), 4, "finite"},
+                      BadModel{"FractionAboveOne", one_species("fraction = 1.5\n"), 4, "from 0 to 1"},
+                      BadModel{"SomeFractions", kind + "[[species]]\nname = 'Ni'\nfraction = 1\n[[species]]\nname = 'P'\n" + pairs,
+                               2, "all or none"},
+                      BadModel{"FractionsOfTooMuch", one_species("fraction = 0.9\n"), 2, "a sum of 1"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+INSTANTIATE_TEST_SUITE_P(
+    Pairs, ModelFileRefusal,
+    ::testing::Values(BadModel{"None", argon, 1, "'pair' is missing"},
+                      BadModel{"OneMissing", kind + species + pair_section("['Ni', 'P']") + pair_section("['P', 'P']"), 6,
+                               "pair Ni-Ni is missing"},
+                      BadModel{"Twice", kind + species + pairs + pair_section("['Ni', 'P']"), 19, "Ni-P is given twice"},
+                      BadModel{"UnknownSpecies", argon + pair_section("['Ar', 'Kr']"), 5, "'Kr': model bad has Ar"},
+                      BadModel{"ThreeSpecies", argon + pair_section("['Ar', 'Ar', 'Ar']"), 5, "two names"},
+                      BadModel{"SpeciesIsText", argon + pair_section("'Ar'"), 5, "two names"},
+                      BadModel{"SpeciesAreNumbers", argon + pair_section("[1, 1]"), 5, "text"},
+                      BadModel{"NoSigma", argon + "[[pair]]\nspecies = ['Ar', 'Ar']\nepsilon = 1\n", 4, "'sigma' is missing"},
+                      BadModel{"NoEpsilon", argon + "[[pair]]\nspecies = ['Ar', 'Ar']\nsigma = 1\n", 4, "'epsilon' is missing"},
+                      BadModel{"UnknownKey", argon + pair_section("['Ar', 'Ar']") + "cutoff = 2\n", 8, "unknown key 'cutoff'"},
+                      BadModel{"EpsilonIsNegative", argon + pair_section("['Ar', 'Ar']", "-1"), 6, "at least 0"},
+                      BadModel{"SigmaIsZero", argon + pair_section("['Ar', 'Ar']", "1", "0.0"), 7, "above 0"},
+                      BadModel{"SigmaIsNan", argon + pair_section("['Ar', 'Ar']", "1", "nan"), 7, "finite"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(ModelFile, AMissingFileIsRefusedByName) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "absent.toml";
+  expect_contains(refusal([&] { read_model_file(path); }), path.string() + ": there is no such file");
+}
+
+TEST(ModelFile, AFolderIsRefusedByName) {
+  const TemporaryFolder folder;
+  expect_contains(refusal([&] { read_model_file(folder.path()); }), folder.path().string() + ": it is a folder");
+}
+
+TEST(ModelFile, AHugeFileIsRefusedByName) {
+  const TemporaryFolder folder;
+  const auto path = folder.file("huge.toml", std::string(2 << 20, '\n'));
+  expect_contains(refusal([&] { read_model_file(path); }), path.string() + ": it is too large");
+}
+
+TEST(ModelFile, AnUnreadableFileIsRefusedByName) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root reads every file";
+  const TemporaryFolder folder;
+  const auto path = folder.file("secret.toml", kind);
+  std::filesystem::permissions(path, std::filesystem::perms::none);
+  expect_contains(refusal([&] { read_model_file(path); }), path.string() + ": it cannot be opened");
+}
+
+}  // namespace
+}  // namespace lanescape

@@ -1,0 +1,32 @@
+#include "end_point_options.hpp"
+
+namespace lanescape::program {
+
+Subcommand add_endpoints(CLI::App& app) {
+  struct State {
+    CommonOptions common;
+    SystemOptions system;
+    EndPointSetup setup;
+  };
+  CLI::App* sub = app.add_subcommand("endpoints", "Equilibrate a liquid and collect pairs of end points");
+  const auto options = std::make_shared<Options>(*sub);
+  const auto state = std::make_shared<State>();
+  state->setup.add_to(*options);
+  state->system.add_to(*options);
+  state->common.add_to(*options);
+  return {sub, [=](int& status) {
+            state->common.check();
+            const Isa isa = state->common.resolve_isa();
+            const LennardJonesModel model = state->system.resolve();
+            const Configuration start = state->setup.start(model, state->common.seed);
+            const EndPointOptions protocol = state->setup.resolve(model, start.size(), state->common.seed);
+            OutputFolder folder = open_folder(state->common);
+            folder.write_run_file("endpoints", options->resolved());
+            EndPoints ends = make_end_points(model, start, protocol, isa, folder, state->common);
+            status = ends.reached ? done : goal_not_reached;
+            write_result(folder, "endpoints", *options, ends.json);
+            return ends.json;
+          }};
+}
+
+}  // namespace lanescape::program

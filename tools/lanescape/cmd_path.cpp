@@ -1,0 +1,194 @@
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "end_point_options.hpp"
+#include "io/extended_xyz.hpp"
+#include "plot.hpp"
+#include "run/path_run.hpp"
+
+namespace lanescape::program {
+namespace {
+
+struct PathState {
+  CommonOptions common;
+  SystemOptions system;
+  EndPointSetup setup;
+  std::vector<std::string> pair_files;
+  std::string method = "contour";
+  bool faithful = true, reverse = false, plot = false;
+  double step = 1e-3;
+  std::optional<double> landscape_energy;
+  std::uint64_t max_steps = FinderOptions{}.max_steps, frames = FinderOptions{}.frames;
+
+  PathRunOptions run_options() const {
+    PathRunOptions options;
+    options.method = parse_path_method(method);
+    options.direct_step = step;
+    options.landscape_energy = landscape_energy;
+    options.reverse = reverse;
+    options.finder.max_steps = max_steps;
+    options.finder.frames = frames;
+    options.threads = common.threads;
+    options.check();
+    return options;
+  }
+};
+
+ConfigurationPair read_pair(const std::filesystem::path& file, const LennardJonesModel& model) {
+  std::vector<Frame> frames = read_frames(file, model);
+  if (frames.size() != 2)
+    throw_bad_input(fmt::format("{}: holds {} frames: a pair of end points is two", file.string(), frames.size()));
+  ConfigurationPair pair{std::move(frames[0].configuration), std::move(frames[1].configuration), 0.0, 0};
+  check_end_points(pair, model, file.string());
+  return pair;
+}
+
+// The pairs a resumed run was started with: its folder holds a copy of each.
+std::vector<ConfigurationPair> read_kept_pairs(const OutputFolder& folder, const LennardJonesModel& model) {
+  std::vector<ConfigurationPair> pairs;
+  for (std::filesystem::path file; std::filesystem::exists(file = folder.path() / pair_file_name(pairs.size()));)
+    pairs.push_back(read_pair(file, model));
+  return pairs;
+}
+
+Json to_json(const PathResult& path, PathMethod method, std::size_t particles) {
+  const bool complete = path.outcome == Outcome::reached;
+  Json json;
+  json["outcome"] = to_string(path.outcome);
+  if (!path.reason.empty()) json["reason"] = path.reason;
+  json["length"] = path.length;
+  json["distance"] = path.distance;
+  json["ratio_squared"] = complete ? Json(path.ratio_squared()) : Json();
+  json["participation_ratio"] = path.participation_number / static_cast<double>(particles);
+  json["steps"] = {{"direct", path.direct_steps}, {to_string(method), path.detour_steps}};
+  json["corrections"] = path.corrections;
+  json["evaluations"] = path.evaluations;
+  json["seconds"] = path.seconds;
+  json["landscape_energy"] = path.landscape_energy;
+  json["largest_violation"] = path.largest_violation;
+  json["reversed"] = path.reversed;
+  return json;
+}
+
+// Mean of (DeltaR/g)^2 over the paths that reached their goal, and its standard error from two paths on.
+void add_mean(Json& json, const std::vector<PathResult>& paths) {
+  double sum = 0.0, squares = 0.0, n = 0.0;
+  for (const PathResult& path : paths) {
+    if (path.outcome != Outcome::reached) continue;
+    sum += path.ratio_squared();
+    n += 1.0;
+  }
+  const double mean = n > 0.0 ? sum / n : 0.0;
+  for (const PathResult& path : paths)
+    if (path.outcome == Outcome::reached) squares += (path.ratio_squared() - mean) * (path.ratio_squared() - mean);
+  json["mean_ratio_squared"] = n > 0.0 ? Json(mean) : Json();
+  json["standard_error"] = n > 1.0 ? Json(std::sqrt(squares / (n * (n - 1.0)))) : Json();
+}
+
+void write_files(OutputFolder& folder, const std::vector<PathResult>& paths, PathMethod method, const LennardJonesModel& model) {
+  folder.write("paths.csv", [&](std::ostream& out) {
+    fmt::print(out, "path,outcome,length,distance,ratio_squared,participation_ratio,direct_steps,{}_steps,evaluations,seconds,"
+                    "landscape_energy,largest_violation,reversed\n", to_string(method));
+    for (std::size_t k = 0; k < paths.size(); ++k) {
+      const PathResult& p = paths[k];
+      fmt::print(out, "{},{},{},{},{},{},{},{},{},{},{},{},{}\n", k + 1, to_string(p.outcome), p.length, p.distance, p.ratio_squared(),
+                 p.participation_number / static_cast<double>(p.frames.front().size()), p.direct_steps, p.detour_steps, p.evaluations,
+                 p.seconds, p.landscape_energy, p.largest_violation, p.reversed ? 1 : 0);
+    }
+  });
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    const PathResult& p = paths[k];
+    folder.write(fmt::format("path-{:04}.extxyz", k + 1), [&](std::ostream& out) {
+      for (const Configuration& frame : p.frames) write_frame(out, frame, model, {});
+    });
+    folder.write(fmt::format("path-{:04}-trace.csv", k + 1), [&](std::ostream& out) {
+      out << "step,length,distance_to_goal,energy,direct_fraction,participation_ratio\n";
+      for (std::size_t r = 0; r < p.trace.rows(); ++r)
+        fmt::print(out, "{:.0f},{},{},{},{},{}\n", p.trace.at(r, PathRecorder::step), p.trace.at(r, PathRecorder::length),
+                   p.trace.at(r, PathRecorder::distance), p.trace.at(r, PathRecorder::energy), p.trace.at(r, PathRecorder::direct_fraction),
+                   p.trace.at(r, PathRecorder::participation) / static_cast<double>(p.frames.front().size()));
+    });
+  }
+}
+
+Json run_path(PathState& state, const Options& options, int& status) {
+  state.common.check();
+  const Isa isa = state.common.resolve_isa();
+  const LennardJonesModel model = state.system.resolve();
+  const PathRunOptions path_options = state.run_options();
+  if (state.plot && state.common.out.empty() && state.common.resume.empty()) throw_bad_input("--plot needs --out: the plots are files");
+
+  // All input is read and checked before anything is written.
+  const bool resumed = !state.common.resume.empty();
+  std::vector<ConfigurationPair> pairs;
+  if (!resumed)
+    for (const std::string& file : state.pair_files) pairs.push_back(read_pair(file, model));
+  const bool from_files = !state.pair_files.empty();
+  Configuration start;
+  EndPointOptions protocol;
+  if (!from_files) {
+    start = state.setup.start(model, state.common.seed);
+    protocol = state.setup.resolve(model, start.size(), state.common.seed);
+  }
+
+  OutputFolder folder = open_folder(state.common);
+  folder.write_run_file("path", options.resolved());
+  Json result;
+  if (from_files && resumed) pairs = read_kept_pairs(folder, model);
+  if (from_files && !resumed)
+    for (std::size_t k = 0; k < pairs.size(); ++k) write_pair(folder, k, pairs[k], model);
+  bool ends_made = true;
+  if (!from_files) {
+    EndPoints ends = make_end_points(model, start, protocol, isa, folder, state.common);
+    pairs = ends.run.pairs;
+    ends_made = ends.reached;
+    result["endpoints"] = std::move(ends.json);
+  }
+
+  std::vector<PathResult> paths;
+  if (ends_made) {
+    TerminalMonitor monitor(state.common.quiet);
+    paths = run_paths(model, pairs, path_options, isa, {folder.checkpoints(), resumed}, monitor);
+  }
+  result["paths"] = Json::array();
+  bool all_reached = ends_made;
+  for (const PathResult& path : paths) {
+    result["paths"].push_back(to_json(path, path_options.method, path.frames.front().size()));
+    all_reached = all_reached && path.outcome == Outcome::reached;
+  }
+  add_mean(result, paths);
+  result["model"] = model.name;
+  result["images"] = to_string(model.images);
+  result["isa"] = to_string(isa);
+  status = all_reached ? done : goal_not_reached;
+  if (folder.exists()) write_files(folder, paths, path_options.method, model);
+  write_result(folder, "path", options, result);
+  if (state.plot) draw_plots(folder.path(), state.common);
+  return result;
+}
+
+}  // namespace
+
+Subcommand add_path(CLI::App& app) {
+  CLI::App* sub = app.add_subcommand("path", "Find geodesics between pairs of end points");
+  const auto options = std::make_shared<Options>(*sub);
+  const auto state = std::make_shared<PathState>();
+  options->add("--pair", state->pair_files, "files with two frames, the end points; without any, pairs are made as by endpoints");
+  options->add("--method", state->method, "contour or escape");
+  options->add_flag("--faithful", state->faithful, "steps exactly as in the source (the default)");
+  options->add("--step", state->step, "length of a direct step in 3N space [sigma]");
+  options->add("--landscape-energy", state->landscape_energy, "E_L [the higher energy of the two end points]");
+  options->add_flag("--reverse", state->reverse, "search from the far end too and keep the shorter path");
+  options->add("--max-steps", state->max_steps, "steps of one path before giving up");
+  options->add("--frames", state->frames, "configurations of each path to keep between its ends");
+  options->add_flag("--plot", state->plot, "draw the path and the equilibration (needs --out)");
+  state->setup.add_to(*options);
+  state->system.add_to(*options);
+  state->common.add_to(*options);
+  return {sub, [=](int& status) { return run_path(*state, *options, status); }};
+}
+
+}  // namespace lanescape::program

@@ -1,0 +1,79 @@
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "interaction/lennard_jones.hpp"
+#include "io/atomic_file.hpp"
+#include "io/extended_xyz.hpp"
+#include "program.hpp"
+#include "verification/cases.hpp"
+#include "verification/junit.hpp"
+#include "verification/kernel_checks.hpp"
+
+namespace lanescape::program {
+namespace {
+
+// The user's own files, under both image rules.
+void add_files(std::vector<LennardJonesCase>& cases, const std::vector<std::string>& files, const LennardJonesModel& model) {
+  for (const std::string& file : files)
+    for (const Frame& frame : read_frames(file, model)) {
+      check_separations(frame.configuration, model);
+      for (const ImageRule rule : {ImageRule::all, ImageRule::minimum}) {
+        LennardJonesModel with_rule = model;
+        with_rule.images = rule;
+        cases.push_back({fmt::format("{} ({} images)", file, to_string(rule)), with_rule, frame.configuration});
+      }
+    }
+}
+
+}  // namespace
+
+Subcommand add_verify(CLI::App& app) {
+  struct State {
+    CommonOptions common;
+    SystemOptions system;
+    std::vector<std::string> files;
+    std::string junit;
+  };
+  CLI::App* sub = app.add_subcommand("verify", "Every kernel on every instruction set against the scalar reference");
+  const auto options = std::make_shared<Options>(*sub);
+  const auto state = std::make_shared<State>();
+  sub->add_option("FILES", state->files, "extended XYZ files to check on besides the built-in cases");
+  options->add("--junit", state->junit, "also write the results to this file as JUnit XML");
+  state->system.add_to(*options);
+  state->common.add_to(*options);
+  return {sub, [=](int& status) {
+            state->common.check();
+            // One named instruction set, or all that are here.
+            std::vector<Isa> isas = available_isas();
+            if (state->common.isa != "auto") isas = {state->common.resolve_isa()};
+            std::vector<LennardJonesCase> cases = lennard_jones_cases();
+            add_files(cases, state->files, state->system.resolve());
+            OutputFolder folder = open_folder(state->common);
+
+            std::vector<Deviation> deviations;
+            for (const Isa isa : isas) {
+              say(state->common, fmt::format("verifying {}", to_string(isa)));
+              for (Deviation& d : verify_kernels(isa, cases)) deviations.push_back(std::move(d));
+            }
+            Json result;
+            result["passed"] = std::all_of(deviations.begin(), deviations.end(), [](const Deviation& d) { return d.passed(); });
+            for (const Deviation& d : deviations)
+              result["kernels"].push_back({{"kernel", d.kernel},
+                                           {"isa", d.isa},
+                                           {"cases", d.cases},
+                                           {"worst", d.worst},
+                                           {"tolerance", d.tolerance},
+                                           {"worst_case", d.worst_case},
+                                           {"passed", d.passed()}});
+            for (const Isa isa : {Isa::sse2, Isa::avx2, Isa::avx512})
+              if (std::find(isas.begin(), isas.end(), isa) == isas.end())
+                result["skipped"].push_back({{"isa", to_string(isa)},
+                                             {"reason", state->common.isa != "auto" ? "not asked for" : "not available on this processor"}});
+            if (!state->junit.empty()) write_atomically(state->junit, [&](std::ostream& out) { write_junit(out, deviations); });
+            write_result(folder, "verify", *options, result);
+            status = result["passed"].get<bool>() ? done : goal_not_reached;
+            return result;
+          }};
+}
+
+}  // namespace lanescape::program

@@ -1,0 +1,64 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <new>
+
+#include "core/error.hpp"
+#include "lanescape/lanescape.hpp"
+#include "program.hpp"
+#include "run_file.hpp"
+
+namespace {
+
+using namespace lanescape;
+using namespace lanescape::program;
+
+// One line, whatever the message was made of.
+void complain(std::string message) {
+  for (char& c : message)
+    if (c == '\n' || c == '\r') c = ' ';
+  std::cerr << "lanescape: " << message << '\n';
+}
+
+int run(std::vector<std::string> arguments) {
+  CLI::App app("Landscape geodesics of liquids and the kernels beneath them. Results are one JSON object on stdout.", "lanescape");
+  app.set_version_flag("--version", version());
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(34);
+  const std::vector<Subcommand> subcommands = {add_info(app), add_energy(app), add_endpoints(app), add_path(app), add_verify(app)};
+  try {
+    arguments = with_run_file(arguments, app);
+    // CLI11 takes arguments in reverse.
+    std::reverse(arguments.begin(), arguments.end());
+    app.parse(arguments);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help and --version
+    complain(fmt::format("{} (see --help)", error.what()));
+    return bad_input_status;
+  }
+  install_signal_handlers();
+  for (const Subcommand& subcommand : subcommands) {
+    if (!subcommand.app->parsed()) continue;
+    int status = done;
+    const Json result = subcommand.run(status);
+    std::cout << result.dump(2) << std::endl;
+    return status;
+  }
+  return internal_error;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(std::vector<std::string>(argv + 1, argv + argc));
+  } catch (const Error& error) {
+    complain(error.what());
+    return static_cast<int>(error.code());
+  } catch (const std::bad_alloc&) {
+    complain("out of memory");
+  } catch (const std::exception& error) {
+    complain(fmt::format("internal error: {}", error.what()));
+  }
+  return internal_error;
+}

@@ -1,0 +1,66 @@
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <iostream>
+
+#include "core/error.hpp"
+#include "io/model_file.hpp"
+#include "program.hpp"
+
+namespace lanescape::program {
+
+void CommonOptions::add_to(Options& options) {
+  threads = omp_get_max_threads();
+  options.add("--seed", seed, "seed of all random numbers");
+  options.add("--threads", threads, "threads; default OMP_NUM_THREADS, else all");
+  options.add("--isa", isa, "instruction set: auto, sse2, avx2, avx512; wins over LANESCAPE_ISA");
+  CLI::App& app = options.app();
+  app.add_flag("--quiet", quiet, "no progress bar, no messages");
+  app.add_option("--config", config, "run file (TOML) with any of these options; flags win");
+  app.add_option("--out", out, "folder for all files; without it none is written");
+  app.add_option("--resume", resume, "folder of an interrupted run to continue");
+}
+
+Isa CommonOptions::resolve_isa() {
+  const Isa chosen = choose_isa(isa);
+  isa = to_string(chosen);
+  return chosen;
+}
+
+void CommonOptions::check() const {
+  if (threads < 1 || threads > 4096) throw_bad_input(fmt::format("--threads: {} is not allowed: from 1 to 4096", threads));
+}
+
+void SystemOptions::add_to(Options& options) {
+  options.add("--model", model, "kob-andersen or lennard-jones");
+  options.add("--model-file", model_file, "model file (TOML) instead of --model");
+  options.add("--cutoff", cutoff, "cutoff in units of sigma_ab [2.5]");
+  options.add("--images", images, "periodic images: all within the cutoff, or the minimum image only [all]");
+  options.add("--truncation", truncation, "shifted, plain or tail [shifted]");
+}
+
+LennardJonesModel SystemOptions::resolve() const {
+  LennardJonesModel resolved = model_file.empty() ? named_model(model) : read_model_file(model_file);
+  if (cutoff) resolved.cutoff = *cutoff;
+  if (images) resolved.images = parse_image_rule(*images);
+  if (truncation) resolved.truncation = parse_truncation(*truncation);
+  resolved.check();
+  return resolved;
+}
+
+OutputFolder open_folder(const CommonOptions& common) {
+  if (!common.resume.empty()) return OutputFolder(common.resume, true);
+  return common.out.empty() ? OutputFolder() : OutputFolder(common.out, false);
+}
+
+void write_result(OutputFolder& folder, const std::string& subcommand, const Options& options, const Json& result) {
+  folder.write_run_file(subcommand, options.resolved());
+  folder.write("result.json", [&](std::ostream& out) { out << result.dump(2) << '\n'; });
+  folder.keep();
+}
+
+void say(const CommonOptions& common, const std::string& line) {
+  if (!common.quiet) std::cerr << line << '\n';
+}
+
+}  // namespace lanescape::program

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <toml++/toml.h>
+#include <vector>
+
+#include "configuration/configuration.hpp"
+#include "configuration/lennard_jones_model.hpp"
+#include "core/run_monitor.hpp"
+#include "dispatch/isa.hpp"
+#include "output_folder.hpp"
+
+namespace lanescape::program {
+
+using Json = nlohmann::ordered_json;
+
+// Exit statuses, the contract with other people's scripts.
+enum ExitStatus { done = 0, goal_not_reached = 1, bad_input_status = 2, internal_error = 3 };
+
+// The options of one subcommand: CLI11 reads them from the command line, and this remembers how to write their final values
+// into the resolved run file, under the same names.
+class Options {
+ public:
+  explicit Options(CLI::App& app) : app_(&app) {}
+
+  template <class T>
+  CLI::Option* add(const std::string& name, T& value, const std::string& description) {
+    writers_.push_back([key = name.substr(2), &value](toml::table& table) { write(table, key, value); });
+    return app_->add_option(name, value, description)->capture_default_str();
+  }
+  CLI::Option* add_flag(const std::string& name, bool& value, const std::string& description) {
+    writers_.push_back([key = name.substr(2), &value](toml::table& table) { write(table, key, value); });
+    return app_->add_flag(name, value, description);
+  }
+  toml::table resolved() const {
+    toml::table table;
+    for (const auto& writer : writers_) writer(table);
+    return table;
+  }
+  CLI::App& app() { return *app_; }
+
+ private:
+  static void write(toml::table& table, const std::string& key, bool value) { table.insert_or_assign(key, value); }
+  static void write(toml::table& table, const std::string& key, double value) { table.insert_or_assign(key, value); }
+  static void write(toml::table& table, const std::string& key, int value) { table.insert_or_assign(key, static_cast<std::int64_t>(value)); }
+  static void write(toml::table& table, const std::string& key, std::uint64_t value) {
+    table.insert_or_assign(key, static_cast<std::int64_t>(value));
+  }
+  static void write(toml::table& table, const std::string& key, const std::string& value) {
+    if (!value.empty()) table.insert_or_assign(key, value);
+  }
+  static void write(toml::table& table, const std::string& key, const std::vector<std::string>& values) {
+    toml::array array;
+    for (const auto& value : values) array.push_back(value);
+    if (!array.empty()) table.insert_or_assign(key, std::move(array));
+  }
+  template <class T>
+  static void write(toml::table& table, const std::string& key, const std::optional<T>& value) {
+    if (value) write(table, key, *value);
+  }
+
+  CLI::App* app_;
+  std::vector<std::function<void(toml::table&)>> writers_;
+};
+
+// What every subcommand takes.
+struct CommonOptions {
+  std::uint64_t seed = 1;
+  int threads = 1;
+  std::string isa = "auto";
+  bool quiet = false;
+  std::string config, out, resume;
+
+  void add_to(Options& options);
+  // The instruction set asked for; `isa` then holds its name, so that the resolved run file does.
+  Isa resolve_isa();
+  // Refuses a thread count below 1.
+  void check() const;
+};
+
+// Which system: model, density, size.
+struct SystemOptions {
+  std::string model = "kob-andersen";
+  std::string model_file;
+  std::optional<double> cutoff;
+  std::optional<std::string> images, truncation;
+
+  void add_to(Options& options);
+  LennardJonesModel resolve() const;
+};
+
+// Runs of the program: one subcommand each. `run` computes, returns the JSON for stdout and sets the exit status.
+struct Subcommand {
+  CLI::App* app;
+  std::function<Json(int& status)> run;
+};
+
+Subcommand add_info(CLI::App& app);
+Subcommand add_energy(CLI::App& app);
+Subcommand add_endpoints(CLI::App& app);
+Subcommand add_path(CLI::App& app);
+Subcommand add_verify(CLI::App& app);
+
+// Watches for SIGINT and SIGTERM, and draws a progress bar with rate and remaining time where stderr is a terminal.
+class TerminalMonitor final : public RunMonitor {
+ public:
+  explicit TerminalMonitor(bool quiet);
+  ~TerminalMonitor() override;
+  void progress(std::string_view stage, double done, double total) override;
+  bool stop_requested() const override;
+
+ private:
+  struct Bar;
+  std::unique_ptr<Bar> bar_;
+};
+
+// From now on SIGINT and SIGTERM ask running work to end at the next whole step; a second one kills.
+void install_signal_handlers();
+
+// The folder of --out or --resume, or none.
+OutputFolder open_folder(const CommonOptions& common);
+
+// The last act of a run: result.json and the resolved run file, where there is a folder, which is kept from here on.
+void write_result(OutputFolder& folder, const std::string& subcommand, const Options& options, const Json& result);
+
+// A line on stderr unless --quiet.
+void say(const CommonOptions& common, const std::string& line);
+
+}  // namespace lanescape::program
