@@ -204,7 +204,7 @@ LANESCAPE_INLINE void tile_against_block(const LjInput& in, const SpeciesBlock& 
   const std::size_t whole = block.count / lanes * lanes;
   const std::size_t past_diagonal = (limits.first_row + row_tile + lanes - 1) / lanes * lanes;
   std::size_t clear = limits.same_species ? past_diagonal : 0;
-  if (limits.first_row + row_tile > limits.row_count || clear > whole) clear = padded;
+  if (limits.first_row + row_tile > limits.row_count) clear = padded;
   loop.template operator()<Masking::rows>(limits.first_column, clear);
   loop.template operator()<Masking::none>(clear, whole);
   loop.template operator()<Masking::columns>(clear > whole ? clear : whole, padded);

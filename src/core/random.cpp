@@ -13,10 +13,10 @@ struct UniformPair {
   double first, second;
 };
 
-// 53 bits centred in their cells: never 0, never 1.
+// 52 bits centred in their cells: exact in a double, so never 0 and never 1.
 double to_unit_interval(std::uint32_t high, std::uint32_t low) {
-  const std::uint64_t bits = (static_cast<std::uint64_t>(high) << 21) ^ (low >> 11);
-  return (static_cast<double>(bits) + 0.5) * 0x1p-53;
+  const std::uint64_t bits = (static_cast<std::uint64_t>(high) << 20) ^ (low >> 12);
+  return (static_cast<double>(bits) + 0.5) * 0x1p-52;
 }
 
 UniformPair draw_pair(std::uint64_t seed, RandomStream stream, std::uint64_t step, std::uint32_t particle, std::uint32_t draw) {

@@ -8,12 +8,13 @@ namespace lanescape {
 enum class RandomStream : std::uint32_t { species = 1, velocities = 2, sites = 3, displacements = 4 };
 
 // Counter-based random numbers (Philox4x32-10, Salmon et al., SC 2011, doi 10.1145/2063384.2063405): each is a function of
-// (seed, stream, step, particle, draw), so that no state is kept and no order of calls or number of threads matters.
+// (seed, stream, step, particle, draw), so that no state is kept and no order of calls or number of threads matters. The
+// three members draw from the same block at the same place: a stream uses one of them, or tells them apart by `draw` < 2^24.
 class CounterRandom {
  public:
   CounterRandom(std::uint64_t seed, RandomStream stream) : seed_(seed), stream_(stream) {}
 
-  // Uniform in (0, 1), 53 bits.
+  // Uniform in (0, 1), 52 bits, the ends excluded.
   double uniform(std::uint64_t step, std::uint32_t particle, std::uint32_t draw = 0) const;
   // Standard normal (Box-Muller).
   double normal(std::uint64_t step, std::uint32_t particle, std::uint32_t draw = 0) const;

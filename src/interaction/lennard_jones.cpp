@@ -15,7 +15,7 @@ using kernels::ImageSearch;
 using kernels::LengthUnit;
 
 // Shifts by more than this many boxes bring no image of a nearest separation (|d| <= L/2) within the cutoff.
-int shells(double length, double cutoff) { return static_cast<int>(std::ceil(cutoff / length - 0.5)); }
+double shells(double length, double cutoff) { return std::ceil(cutoff / length - 0.5); }
 
 bool is_cubic(const Box& box) { return box.length[0] == box.length[1] && box.length[0] == box.length[2]; }
 
@@ -33,6 +33,9 @@ ImageSearch image_search(const Box& box, double cutoff, ImageRule rule) {
 }
 
 void check_separations(const Configuration& configuration, const LennardJonesModel& model) {
+  for (std::size_t k = 0; k < configuration.positions.size(); ++k)
+    if (!std::isfinite(configuration.positions[k]))
+      throw_bad_input(fmt::format("particle {}: coordinate {} is not finite", k / 3, configuration.positions[k]));
   constexpr double allowed = 0.3;
   double worst = allowed;
   std::size_t worst_i = 0, worst_j = 0;
@@ -75,8 +78,9 @@ LennardJones::LennardJones(const LennardJonesModel& model, const Box& box, const
       const double shift = model.truncation == Truncation::shifted ? (c12 * inverse6 - c6) * inverse6 : 0.0;
       pairs_.push_back({c12, c6, cutoff * cutoff, shift, image_search(box, cutoff, model.images)});
       lattice = lattice || pairs_.back().images == ImageSearch::lattice;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        input_.shells[axis] = std::max(input_.shells[axis], shells(box.length[axis], cutoff));
+      if (model.images == ImageRule::all)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          input_.shells[axis] = std::max(input_.shells[axis], static_cast<std::int32_t>(shells(box.length[axis], cutoff)));
     }
   input_.unit = is_cubic(box) && !lattice ? LengthUnit::box : LengthUnit::sigma;
   if (input_.unit == LengthUnit::box)

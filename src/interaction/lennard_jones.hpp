@@ -16,7 +16,7 @@ namespace lanescape {
 kernels::ImageSearch image_search(const Box& box, double cutoff, ImageRule rule);
 
 // Throws Error(bad_input) naming the closest pair if any two particles are nearer than 0.3 sigma_ab, where r^-12 has lost all
-// meaning, or coincide with an image of their own.
+// meaning, or the coordinate that is not finite. O(N^2).
 void check_separations(const Configuration& configuration, const LennardJonesModel& model);
 
 // Energy, gradient and virial of one mixture in one box, all pairs, by the kernels of one instruction set. Holds the scratch

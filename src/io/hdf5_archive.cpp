@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdlib>
 #include <mutex>
 #include <system_error>
 #include <utility>
@@ -23,6 +24,9 @@ constexpr std::size_t largest_compact = 8192;
 constexpr std::size_t chunk_bytes = std::size_t{1} << 19;
 
 // The lock of all archives, and silence for the library's error printer, which belongs to the process and is put back.
+// Every archive is closed by its owner, so the library's own clean-up at exit is not needed; where a damaged object header was
+// met, release 1.10 has lost memory that this clean-up then waits for, and complains on stderr. A host that used HDF5 before
+// the first archive keeps the clean-up.
 class Session {
  public:
   Session() : lock_(mutex()) {
@@ -36,6 +40,8 @@ class Session {
  private:
   static std::mutex& mutex() {
     static std::mutex instance;
+    static const herr_t without_exit_handler = H5dont_atexit();
+    static_cast<void>(without_exit_handler);
     return instance;
   }
 
@@ -53,17 +59,18 @@ class Handle {
   Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
   Handle& operator=(Handle&& other) noexcept {
     if (this != &other) {
-      reset();
+      close();
       id_ = std::exchange(other.id_, -1);
       close_ = other.close_;
     }
     return *this;
   }
-  ~Handle() { reset(); }
+  ~Handle() { close(); }
 
-  void reset() {
-    if (id_ >= 0) close_(id_);
-    id_ = -1;
+  // False where the library fails to close.
+  bool close() {
+    const hid_t id = std::exchange(id_, -1);
+    return id < 0 || close_(id) >= 0;
   }
   hid_t get() const { return id_; }
   bool valid() const { return id_ >= 0; }
@@ -96,6 +103,43 @@ Handle file_access() {
   H5Pset_file_locking(access.get(), false, true);
   return access;
 }
+
+// The memory of a file under construction, lent to the library's in-memory driver through its callbacks. It outlives the
+// file: only closing gives the superblock its last state and checksum, and H5Fget_file_image of release 1.10 leaves a wrong one.
+class FileMemory {
+ public:
+  FileMemory() = default;
+  FileMemory(const FileMemory&) = delete;
+  FileMemory& operator=(const FileMemory&) = delete;
+  ~FileMemory() { std::free(data_); }
+
+  void lend(hid_t access) {
+    constexpr std::size_t increment = std::size_t{1} << 16;
+    H5Pset_fapl_core(access, increment, false);
+    H5FD_file_image_callbacks_t callbacks{};
+    callbacks.image_malloc = [](std::size_t size, H5FD_file_image_op_t, void* self) { return resize(self, size); };
+    callbacks.image_realloc = [](void*, std::size_t size, H5FD_file_image_op_t, void* self) { return resize(self, size); };
+    callbacks.image_free = [](void*, H5FD_file_image_op_t, void*) { return herr_t{0}; };
+    callbacks.udata_copy = [](void* self) { return self; };
+    callbacks.udata_free = [](void*) { return herr_t{0}; };
+    callbacks.udata = this;
+    H5Pset_file_image_callbacks(access, &callbacks);
+  }
+  const char* data() const { return static_cast<const char*>(data_); }
+  std::size_t size() const { return size_; }
+
+ private:
+  static void* resize(void* self, std::size_t size) {
+    auto& memory = *static_cast<FileMemory*>(self);
+    void* const data = std::realloc(memory.data_, size);
+    if (data == nullptr) return nullptr;
+    memory.size_ = size;
+    return memory.data_ = data;
+  }
+
+  void* data_ = nullptr;
+  std::size_t size_ = 0;
+};
 
 // The open groups from the root down, and the path that messages give.
 class GroupStack {
@@ -139,8 +183,7 @@ struct Hdf5Writer::Impl {
 
   void open() {
     const Handle access = file_access();
-    constexpr std::size_t increment = std::size_t{1} << 20;
-    H5Pset_fapl_core(access.get(), increment, false);
+    memory_.lend(access.get());
     file_ = Handle(H5Fcreate(temporary_.path().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose);
     const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
     const Handle attribute(H5Acreate2(file_.get(), version_attribute, H5T_STD_U64LE, space.get(), H5P_DEFAULT, H5P_DEFAULT),
@@ -190,23 +233,20 @@ struct Hdf5Writer::Impl {
     write(name, stored_type(value.data()), memory_type(value.data()), H5S_SIMPLE, value.size(), value.data());
   }
 
-  std::vector<unsigned char> image() {
-    if (H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) < 0)
-      throw_misuse(fmt::format("{}: the HDF5 library cannot finish the file", path_));
-    const ssize_t size = H5Fget_file_image(file_.get(), nullptr, 0);
-    std::vector<unsigned char> bytes(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
-    if (size <= 0 || H5Fget_file_image(file_.get(), bytes.data(), bytes.size()) != size)
-      throw_misuse(fmt::format("{}: the HDF5 library cannot finish the file", path_));
-    return bytes;
-  }
-
-  void close() {
+  // Ends the file and gives its length in memory_.
+  std::size_t finish() {
     groups_.clear();
-    file_.reset();
+    const bool flushed = H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) >= 0;
+    const ssize_t size = H5Fget_file_image(file_.get(), nullptr, 0);
+    const bool closed = file_.close();
+    if (!flushed || !closed || size <= 0 || static_cast<std::size_t>(size) > memory_.size())
+      throw_misuse(fmt::format("{}: the HDF5 library cannot finish the file", path_));
+    return static_cast<std::size_t>(size);
   }
 
   std::string path_;
   TemporaryFile temporary_;
+  FileMemory memory_;
   Handle file_;
   GroupStack groups_;
 };
@@ -257,18 +297,15 @@ void Hdf5Writer::leave() {
 }
 
 void Hdf5Writer::commit() {
-  std::vector<unsigned char> bytes;
+  std::size_t size = 0;
   {
     const Session session;
     impl_->need_open("commit");
     if (!impl_->groups_.at_root())
       throw_misuse(fmt::format("{}: commit() inside group {}", impl_->path_, impl_->groups_.path_of("")));
-    bytes = impl_->image();
-    impl_->close();
+    size = impl_->finish();
   }
-  impl_->temporary_.write([&](std::ostream& out) {
-    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  });
+  impl_->temporary_.write([&](std::ostream& out) { out.write(impl_->memory_.data(), static_cast<std::streamsize>(size)); });
   impl_->temporary_.commit();
 }
 

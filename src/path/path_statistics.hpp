@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "core/archive.hpp"
-#include "kernel_table.hpp"
+#include "views.hpp"
 
 namespace lanescape {
 

@@ -59,7 +59,7 @@ Subcommand add_energy(CLI::App& app) {
   CLI::App* sub = app.add_subcommand("energy", "Potential energy, virial, stress and forces of a configuration");
   const auto options = std::make_shared<Options>(*sub);
   const auto state = std::make_shared<State>();
-  sub->add_option("FILE", state->file, "extended XYZ; of several frames the first is used")->required();
+  options->add_positional("FILE", state->file, "extended XYZ; of several frames the first is used")->required();
   options->add_flag("--forces", state->forces, "list the forces too");
   options->add("--backend", state->backend, "simd, or the scalar reference");
   state->system.add_to(*options);
@@ -73,10 +73,10 @@ Subcommand add_energy(CLI::App& app) {
             const auto frame = ExtendedXyzReader(state->file, model).next();
             const Configuration& configuration = frame->configuration;
             check_separations(configuration, model);
-            OutputFolder folder = open_folder(state->common);
             const bool simd = state->backend == "simd";
             const LennardJones limits_checked(model, configuration.box, ParticleLayout(configuration.species, model.species.size()),
                                               kernel_table(isa));
+            OutputFolder folder = open_folder(state->common);
             const EnergyResult e = simd ? by_kernels(model, configuration, isa) : by_reference(model, configuration);
             const Json result = to_json(e, configuration, model, simd ? to_string(isa) : "reference", state->forces);
             write_result(folder, "energy", *options, result);

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdlib>
+
 #include "core/error.hpp"
 #include "interaction/lennard_jones.hpp"
 #include "io/atomic_file.hpp"
@@ -37,15 +40,18 @@ Subcommand add_verify(CLI::App& app) {
   CLI::App* sub = app.add_subcommand("verify", "Every kernel on every instruction set against the scalar reference");
   const auto options = std::make_shared<Options>(*sub);
   const auto state = std::make_shared<State>();
-  sub->add_option("FILES", state->files, "extended XYZ files to check on besides the built-in cases");
+  options->add_positional("FILES", state->files, "extended XYZ files to check on besides the built-in cases");
   options->add("--junit", state->junit, "also write the results to this file as JUnit XML");
   state->system.add_to(*options);
   state->common.add_to(*options);
   return {sub, [=](int& status) {
             state->common.check();
-            // One named instruction set, or all that are here.
+            // One named instruction set, by flag or LANESCAPE_ISA, or all that are here.
+            const char* variable = std::getenv("LANESCAPE_ISA");
+            const std::string_view forced = variable != nullptr ? variable : "auto";
+            const bool one = state->common.isa != "auto" || !(forced.empty() || forced == "auto");
             std::vector<Isa> isas = available_isas();
-            if (state->common.isa != "auto") isas = {state->common.resolve_isa()};
+            if (one) isas = {state->common.resolve_isa()};
             std::vector<LennardJonesCase> cases = lennard_jones_cases();
             add_files(cases, state->files, state->system.resolve());
             OutputFolder folder = open_folder(state->common);
@@ -68,7 +74,7 @@ Subcommand add_verify(CLI::App& app) {
             for (const Isa isa : {Isa::sse2, Isa::avx2, Isa::avx512})
               if (std::find(isas.begin(), isas.end(), isa) == isas.end())
                 result["skipped"].push_back({{"isa", to_string(isa)},
-                                             {"reason", state->common.isa != "auto" ? "not asked for" : "not available on this processor"}});
+                                             {"reason", one ? "not asked for" : "not available on this processor"}});
             if (!state->junit.empty()) write_atomically(state->junit, [&](std::ostream& out) { write_junit(out, deviations); });
             write_result(folder, "verify", *options, result);
             status = result["passed"].get<bool>() ? done : goal_not_reached;

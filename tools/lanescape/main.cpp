@@ -42,7 +42,9 @@ int run(std::vector<std::string> arguments) {
     int status = done;
     const Json result = subcommand.run(status);
     std::cout << result.dump(2) << std::endl;
-    return status;
+    if (std::cout) return status;
+    complain("stdout: the result cannot be written");
+    return internal_error;
   }
   return internal_error;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "core/error.hpp"
@@ -11,17 +12,17 @@ namespace lanescape::program {
 namespace fs = std::filesystem;
 
 OutputFolder::OutputFolder(fs::path path, bool resume) : path_(std::move(path)) {
-  const bool there = fs::exists(path_);
-  if (resume && !there) throw_bad_input(fmt::format("{}: there is no run to resume", path_.string()));
+  if (resume && !fs::exists(path_)) throw_bad_input(fmt::format("{}: there is no run to resume", path_.string()));
   if (!resume && fs::exists(path_ / "run.toml"))
     throw_bad_input(fmt::format("{}: holds a run already: continue it with --resume, or name another folder", path_.string()));
+  for (fs::path folder = path_; !folder.empty() && !fs::exists(folder); folder = folder.parent_path()) made_here_.push_back(folder);
+  std::reverse(made_here_.begin(), made_here_.end());
   prepare_output_folder(path_);
-  made_here_ = !there;
   fs::create_directories(checkpoints());
 }
 
 OutputFolder::OutputFolder(OutputFolder&& other) noexcept
-    : path_(std::exchange(other.path_, {})), made_here_(std::exchange(other.made_here_, false)) {}
+    : path_(std::exchange(other.path_, {})), made_here_(std::exchange(other.made_here_, {})) {}
 
 OutputFolder& OutputFolder::operator=(OutputFolder&& other) noexcept {
   std::swap(path_, other.path_);
@@ -30,13 +31,12 @@ OutputFolder& OutputFolder::operator=(OutputFolder&& other) noexcept {
 }
 
 OutputFolder::~OutputFolder() {
+  if (!exists()) return;
   std::error_code ignored;
-  if (exists() && made_here_) {
-    fs::remove_all(path_, ignored);
-  } else if (exists()) {
-    // Removes the folder only if no checkpoint was written.
-    fs::remove(checkpoints(), ignored);
-  }
+  // Of folders only empty ones are removed.
+  fs::remove(checkpoints(), ignored);
+  if (fs::exists(checkpoints(), ignored)) return;
+  for (auto made = made_here_.rbegin(); made != made_here_.rend(); ++made) fs::remove(*made, ignored);
 }
 
 void OutputFolder::write_run_file(const std::string& subcommand, const toml::table& resolved) {
@@ -46,7 +46,11 @@ void OutputFolder::write_run_file(const std::string& subcommand, const toml::tab
 }
 
 void OutputFolder::write(const std::string& name, const std::function<void(std::ostream&)>& writer) {
-  if (exists()) write_atomically(path_ / name, writer);
+  if (!exists()) return;
+  const fs::path file = path_ / name;
+  const bool there = fs::exists(file);
+  write_atomically(file, writer);
+  if (!there) made_here_.push_back(file);
 }
 
 }  // namespace lanescape::program

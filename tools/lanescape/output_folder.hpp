@@ -5,11 +5,12 @@
 #include <ostream>
 #include <string>
 #include <toml++/toml.h>
+#include <vector>
 
 namespace lanescape::program {
 
 // The folder of --out or --resume. Nothing is left behind by a run that turns out to have bad input: until keep() is called,
-// the destructor removes what this run has made.
+// the destructor removes what this run has made, unless there are checkpoints to resume from.
 class OutputFolder {
  public:
   // No folder: every other call does nothing.
@@ -27,11 +28,11 @@ class OutputFolder {
 
   void write_run_file(const std::string& subcommand, const toml::table& resolved);
   void write(const std::string& name, const std::function<void(std::ostream&)>& writer);
-  void keep() { made_here_ = false; }
+  void keep() { made_here_.clear(); }
 
  private:
   std::filesystem::path path_;
-  bool made_here_ = false;  // the folder did not exist, and nothing in it is worth keeping yet
+  std::vector<std::filesystem::path> made_here_;  // folders and files, in the order they were made
 };
 
 }  // namespace lanescape::program

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -34,6 +35,12 @@ class Options {
     writers_.push_back([key = name.substr(2), &value](toml::table& table) { write(table, key, value); });
     return app_->add_option(name, value, description)->capture_default_str();
   }
+  // FILE or FILES, under the same name in small letters in the run file.
+  template <class T>
+  CLI::Option* add_positional(const std::string& name, T& value, const std::string& description) {
+    writers_.push_back([key = CLI::detail::to_lower(name), &value](toml::table& table) { write(table, key, value); });
+    return app_->add_option(name, value, description);
+  }
   CLI::Option* add_flag(const std::string& name, bool& value, const std::string& description) {
     writers_.push_back([key = name.substr(2), &value](toml::table& table) { write(table, key, value); });
     return app_->add_flag(name, value, description);
@@ -50,7 +57,11 @@ class Options {
   static void write(toml::table& table, const std::string& key, double value) { table.insert_or_assign(key, value); }
   static void write(toml::table& table, const std::string& key, int value) { table.insert_or_assign(key, static_cast<std::int64_t>(value)); }
   static void write(toml::table& table, const std::string& key, std::uint64_t value) {
-    table.insert_or_assign(key, static_cast<std::int64_t>(value));
+    // TOML's integers have a sign; a text is read back just the same.
+    if (value <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
+      table.insert_or_assign(key, static_cast<std::int64_t>(value));
+    else
+      table.insert_or_assign(key, std::to_string(value));
   }
   static void write(toml::table& table, const std::string& key, const std::string& value) {
     if (!value.empty()) table.insert_or_assign(key, value);

@@ -5,25 +5,18 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 
 #include "core/error.hpp"
 
 namespace lanescape::program {
 namespace {
 
-// The value of `--name VALUE` or `--name=VALUE`.
-std::optional<std::string> value_of(const std::vector<std::string>& arguments, const std::string& name) {
-  for (std::size_t k = 0; k < arguments.size(); ++k) {
-    if (arguments[k] == name && k + 1 < arguments.size()) return arguments[k + 1];
-    if (arguments[k].starts_with(name + "=")) return arguments[k].substr(name.size() + 1);
-  }
-  return std::nullopt;
-}
-
-bool is_given(const std::vector<std::string>& arguments, const std::string& name) {
-  return std::any_of(arguments.begin(), arguments.end(),
-                     [&](const std::string& a) { return a == name || a.starts_with(name + "="); });
+// The option of that name in a run file; null if there is none.
+const CLI::Option* find_option(const CLI::App& subcommand, const std::string& key) {
+  if (key == "help" || key == "config" || key == "resume") return nullptr;
+  for (const CLI::Option* option : subcommand.get_options())
+    if (option->check_lname(key) || (option->get_positional() && CLI::detail::to_lower(option->get_name()) == key)) return option;
+  return nullptr;
 }
 
 void append_value(std::vector<std::string>& arguments, const toml::node& node, const std::string& where) {
@@ -42,52 +35,62 @@ void append_option(std::vector<std::string>& arguments, const std::string& name,
     if (flag->get()) arguments.push_back(name);
     return;
   }
-  arguments.push_back(name);
+  if (name.starts_with("--")) arguments.push_back(name);
   if (const auto* list = node.as_array())
     for (const auto& item : *list) append_value(arguments, item, where);
   else
     append_value(arguments, node, where);
 }
 
-void refuse_flags_besides_resume(const std::vector<std::string>& arguments) {
+void refuse_options_besides_resume(const CLI::App& subcommand) {
   static constexpr std::array allowed = {"--resume", "--threads", "--quiet"};
-  for (const std::string& argument : arguments) {
-    if (!argument.starts_with("--")) continue;
-    const std::string name = argument.substr(0, argument.find('='));
-    if (std::find(allowed.begin(), allowed.end(), name) == allowed.end())
-      throw_bad_input(fmt::format("{} is not allowed with --resume: only --threads and --quiet are, the rest is the run's own", name));
-  }
+  for (const CLI::Option* option : subcommand.get_options())
+    if (option->count() > 0 && std::find(allowed.begin(), allowed.end(), option->get_name()) == allowed.end())
+      throw_bad_input(fmt::format("{} is not allowed with --resume: only --threads and --quiet are, the rest is the run's own",
+                                  option->get_name()));
 }
 
 }  // namespace
 
-std::vector<std::string> with_run_file(const std::vector<std::string>& arguments, const CLI::App& program) {
-  if (arguments.empty() || is_given(arguments, "--help") || is_given(arguments, "-h")) return arguments;
-  const auto resume = value_of(arguments, "--resume");
-  const auto config = resume ? std::optional(*resume + "/run.toml") : value_of(arguments, "--config");
-  if (!config) return arguments;
-  const auto named = program.get_subcommands([&](const CLI::App* app) { return app->get_name() == arguments.front(); });
-  if (named.empty()) return arguments;  // CLI11 knows what to say
-  const CLI::App* subcommand = named.front();
-  if (resume) refuse_flags_besides_resume(arguments);
+std::vector<std::string> with_run_file(const std::vector<std::string>& arguments, CLI::App& program) {
+  try {
+    std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // as CLI11 takes them
+    program.parse(reversed);
+  } catch (const CLI::RequiredError&) {
+    // The run file may have what is missing.
+  }
+  if (program.get_subcommands().empty()) return arguments;  // CLI11 knows what to say
+  const CLI::App& subcommand = *program.get_subcommands().front();
+  const auto given = [&](const char* name) { return subcommand.get_option(name)->count() > 0; };
+  const bool resume = given("--resume");
+  if (!resume && !given("--config")) return arguments;
+  const auto file = resume ? subcommand.get_option("--resume")->as<std::string>() + "/run.toml"
+                           : subcommand.get_option("--config")->as<std::string>();
+  if (resume) refuse_options_besides_resume(subcommand);
 
   toml::table table;
   try {
-    table = toml::parse_file(*config);
+    table = toml::parse_file(file);
   } catch (const toml::parse_error& error) {
     const auto line = error.source().begin.line;
-    throw_bad_input(line > 0 ? fmt::format("{}:{}: not a run file: {}", *config, line, error.description())
-                             : fmt::format("{}: cannot be read: {}", *config, resume ? "there is no run to resume" : error.description()));
+    throw_bad_input(line > 0
+                        ? fmt::format("{}:{}: not a run file: {}", file, line, error.description())
+                        : fmt::format("{}: cannot be read: {}", file, resume ? "there is no run to resume" : error.description()));
   }
-  std::vector<std::string> extended = arguments;
+  std::vector<std::string> positionals, added;
   for (const auto& [key, node] : table) {
-    const std::string name = fmt::format("--{}", key.str());
-    const std::string where = fmt::format("{}:{}: {}", *config, node.source().begin.line, key.str());
-    if (name == "--config" || name == "--resume" || subcommand->get_option_no_throw(name) == nullptr)
-      throw_bad_input(fmt::format("{} is not an option of {}, see lanescape {} --help", where, arguments.front(), arguments.front()));
-    if (name == "--out" && resume) continue;
-    if (!is_given(arguments, name)) append_option(extended, name, node, where);
+    const std::string where = fmt::format("{}:{}: {}", file, node.source().begin.line, key.str());
+    const CLI::Option* option = find_option(subcommand, std::string(key.str()));
+    if (option == nullptr)
+      throw_bad_input(
+          fmt::format("{} is not an option of {}, see lanescape {} --help", where, subcommand.get_name(), subcommand.get_name()));
+    if (option->count() == 0 && !(resume && key == "out"))
+      append_option(option->get_positional() ? positionals : added, option->get_name(), node, where);
   }
+  // Positional arguments come first: elsewhere they would be taken for more values of the option before them.
+  std::vector<std::string> extended = {arguments.front()};
+  for (const auto* part : {&positionals, &added}) extended.insert(extended.end(), part->begin(), part->end());
+  extended.insert(extended.end(), arguments.begin() + 1, arguments.end());
   return extended;
 }
 

@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t sample = 200000;
 
 double from_words(std::uint32_t high, std::uint32_t low) {
-  return (std::ldexp(double(high), 21) + double(low >> 11) + 0.5) * 0x1p-53;
+  return (std::ldexp(double(high), 20) + double(low >> 12) + 0.5) * 0x1p-52;
 }
 
 // Known answers of philox4x32-10 published with Random123 (kat_vectors): counter, key -> first two words. The stream is

@@ -1,44 +1,23 @@
 #include "io/atomic_file.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 
-#include <csignal>
 #include <stdexcept>
 #include <string>
 
-#include "temporary_folder.hpp"
+#include "test_files.hpp"
 
 namespace lanescape {
 namespace {
 
 using testing::content_of;
 using testing::expect_contains;
+using testing::FileSizeLimit;
 using testing::refusal;
 using testing::TemporaryFolder;
 
 void write_new(std::ostream& out) { out << "new"; }
-
-// Lets files grow to `bytes` only, as a full disk would.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-  ~FileSizeLimit() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  void (*handler_)(int);
-  rlimit before_{};
-};
 
 TEST(AtomicFile, NewContentReplacesTheOldAndLeavesNothingElse) {
   const TemporaryFolder folder;

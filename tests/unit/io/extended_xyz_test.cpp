@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "temporary_folder.hpp"
+#include "test_files.hpp"
 
 namespace lanescape {
 namespace {

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include "temporary_folder.hpp"
+#include "test_files.hpp"
 
 namespace lanescape {
 namespace {

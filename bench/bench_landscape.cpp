@@ -1,0 +1,117 @@
+// V(R), with its gradient and with the stress, of a Kob-Andersen liquid: every available instruction set, both image rules.
+//
+// Counters: `pairs` N (N - 1)/2; `ns_per_pair`; `x_limit` how many times the arithmetic limit an evaluation takes.
+// The limit is the time of the multiply-adds and products that a vector of pairs cannot do without, at the rate this machine
+// was measured to do them: 3 for r^2, 2 for r^-6 from 1/r^2, 1 for the sum of r^-12 (energy: 6); 3 for -u'(r)/r and 6 for the
+// gradients of both particles (15); 9 for the tensor (24). Bare sums, the division and the choice of the image are left out, and
+// so is the second image of the rule `all` in a small box: no kernel can reach 1.
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "bench_support.hpp"
+#include "interaction/lennard_jones.hpp"
+#include "verification/kernel_checks.hpp"
+#include "verification/reference_bridge.hpp"
+
+namespace lanescape::bench {
+namespace {
+
+enum class Quantity { energy, gradient, stress };
+
+struct QuantityTraits {
+  const char* name;
+  double vector_instructions;  // per vector of pairs
+};
+
+QuantityTraits traits(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::energy:
+      return {"energy", 6.0};
+    case Quantity::gradient:
+      return {"gradient", 15.0};
+    case Quantity::stress:
+      return {"stress", 24.0};
+  }
+  return {};
+}
+
+double pair_count(std::size_t particles) {
+  const auto n = static_cast<double>(particles);
+  return 0.5 * n * (n - 1.0);
+}
+
+void set_counters(benchmark::State& state, double pairs) {
+  state.counters["pairs"] = pairs;
+  state.counters["ns_per_pair"] =
+      benchmark::Counter(1e-9 * pairs, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+// What is wrong with these kernels on this configuration; empty if nothing is.
+std::string check(Isa isa, const LennardJonesModel& model, const Configuration& configuration) {
+  for (const Deviation& d : verify_lennard_jones(kernel_table(isa), {{"the benchmark's liquid", model, configuration}}))
+    if (!d.passed()) return describe(d);
+  return "";
+}
+
+void evaluate(benchmark::State& state, Quantity quantity, std::size_t particles, ImageRule images, Isa isa) {
+  const LennardJonesModel model = kob_andersen_with(images);
+  const Configuration& configuration = liquid(particles);
+  if (const std::string wrong = check(isa, model, configuration); !wrong.empty()) return state.SkipWithError(wrong.c_str());
+
+  const kernels::KernelTable& table = kernel_table(isa);
+  const ParticleLayout layout(configuration.species, model.species.size());
+  const AlignedArray positions = layout.to_slots(configuration.positions);
+  AlignedArray gradient(layout.dimension(), 0.0);
+  LennardJones interaction(model, configuration.box, layout, table);
+  const double limit = traits(quantity).vector_instructions * pair_count(particles) / static_cast<double>(table.lanes) *
+                       seconds_per_vector_instruction(isa);
+  for (auto _ : state) {
+    double energy = 0.0;
+    if (quantity == Quantity::energy) energy = interaction.energy(positions);
+    if (quantity == Quantity::gradient) energy = interaction.energy_and_gradient(positions, gradient).energy;
+    if (quantity == Quantity::stress) energy = interaction.energy_and_stress(positions, gradient).energy;
+    benchmark::DoNotOptimize(energy);
+    benchmark::ClobberMemory();
+  }
+  set_counters(state, pair_count(particles));
+  state.counters["x_limit"] =
+      benchmark::Counter(limit, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+// For scale: the scalar arbiter, which always does everything.
+void evaluate_scalar_reference(benchmark::State& state, std::size_t particles, ImageRule images) {
+  const LennardJonesModel model = kob_andersen_with(images);
+  const Configuration& configuration = liquid(particles);
+  for (auto _ : state) {
+    double energy = evaluate_reference(model, configuration).energy;
+    benchmark::DoNotOptimize(energy);
+  }
+  set_counters(state, pair_count(particles));
+}
+
+void register_all() {
+  for (const ImageRule images : {ImageRule::minimum, ImageRule::all}) {
+    for (const Quantity quantity : {Quantity::energy, Quantity::gradient, Quantity::stress})
+      for (const std::size_t particles : {108U, 256U, 500U})
+        for (const Isa isa : available_isas()) {
+          const auto name = fmt::format("{}/N:{}/{}/{}", traits(quantity).name, particles, to_string(images), to_string(isa));
+          benchmark::RegisterBenchmark(name.c_str(), evaluate, quantity, particles, images, isa)->Unit(benchmark::kMicrosecond);
+        }
+    const auto name = fmt::format("stress/N:108/{}/reference", to_string(images));
+    benchmark::RegisterBenchmark(name.c_str(), evaluate_scalar_reference, 108, images)->Unit(benchmark::kMicrosecond);
+  }
+}
+
+}  // namespace
+}  // namespace lanescape::bench
+
+int main(int argc, char** argv) {
+  lanescape::bench::register_all();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+}

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <map>
+#include <utility>
+
+#include "configuration/configuration.hpp"
+#include "configuration/lattice.hpp"
+#include "configuration/lennard_jones_model.hpp"
+#include "configuration/particle_layout.hpp"
+#include "dispatch/isa.hpp"
+#include "dynamics/velocity_verlet.hpp"
+#include "landscape/lennard_jones_landscape.hpp"
+
+namespace lanescape::bench {
+
+inline LennardJonesModel kob_andersen_with(ImageRule images) {
+  LennardJonesModel model = kob_andersen();
+  model.images = images;
+  return model;
+}
+
+// A Kob-Andersen liquid of density 1.2: a lattice melted for 5 time units at T = 5 and cooled for as many at T = 1. The same bits
+// whichever kernels are timed later, since the least instruction set makes it.
+inline const Configuration& liquid(std::size_t particles) {
+  static std::map<std::size_t, Configuration> made;
+  const auto found = made.find(particles);
+  if (found != made.end()) return found->second;
+  const LennardJonesModel model = kob_andersen();
+  Configuration configuration = fcc_start(model, particles, 1.2, 1);
+  const ParticleLayout layout(configuration.species, model.species.size());
+  LennardJonesLandscape landscape(model, configuration.box, layout, available_isas().front());
+  VelocityVerlet verlet(landscape, model, layout, layout.to_slots(configuration.positions), 1e-3);
+  verlet.draw_velocities(5.0, 1);
+  for (const double temperature : {5.0, 1.0})
+    for (int step = 0; step < 5000; ++step) {
+      if (step % 500 == 0) verlet.rescale_to(temperature);
+      verlet.step();
+    }
+  configuration.positions = layout.to_user(verlet.position());
+  return made.emplace(particles, std::move(configuration)).first->second;
+}
+
+// Seconds per multiply-add of whole vectors with all pipes full, the best of many short runs: what a loop that does nothing
+// else takes on this machine. Without fma, SSE2 and the portable leg, one counts for a product and a sum.
+inline double seconds_per_vector_instruction(Isa isa) {
+  static std::map<Isa, double> measured;
+  const auto found = measured.find(isa);
+  if (found != measured.end()) return found->second;
+  const kernels::KernelTable& table = kernel_table(isa);
+  double best = 1.0, sink = 0.0;
+  for (int run = 0; run < 200; ++run) {
+    const auto start = std::chrono::steady_clock::now();
+    const double operations = table.peak_rounds(20'000, &sink);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    benchmark::DoNotOptimize(sink);
+    best = std::min(best, seconds.count() * 2.0 * static_cast<double>(table.lanes) / operations);
+  }
+  return measured.emplace(isa, best).first->second;
+}
+
+}  // namespace lanescape::bench

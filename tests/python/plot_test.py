@@ -1,0 +1,145 @@
+#!/usr/bin/python3
+"""tools/plot.py on small made-up run folders: which figures it writes, and how it refuses."""
+
+import json
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SCRIPT = Path(__file__).resolve().parents[2] / "tools" / "plot.py"
+PATH_HEADER = "step,length,distance_to_goal,energy,direct_fraction,participation_ratio"
+END_POINT_HEADER = "step,time,temperature,potential_energy_per_particle,energy_per_particle,phase"
+
+
+def path_summary(outcome="reached", ratio=0.25, method="contour"):
+    return {"outcome": outcome, "length": 20.0, "distance": 10.0, "ratio_squared": ratio, "participation_ratio": 0.4,
+            "steps": {"direct": 10, method: 90}, "landscape_energy": -50.0, "reversed": False}
+
+
+def path_rows(count, gap=0.01):
+    return [f"{k + 1},{20.0 * (k + 1) / count},{10.0 * (1 - (k + 1) / count)},{-50.0 - gap * (1 + k % 7)},{0.1 * (k % 2)},{0.4 + 0.01 * (k % 5)}"
+            for k in range(count)]
+
+
+def end_point_rows(phases):
+    return [f"{k},{0.001 * k},{1 + 0.01 * (k % 3)},{-6 + 0.01 * (k % 4)},-4.5,{phase}" for k, phase in enumerate(phases)]
+
+
+def write_table(file, header, rows):
+    file.write_text("\n".join([header, *rows]) + "\n")
+
+
+class Plot(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+
+    def write_run(self, summaries, rows=100, gap=0.01):
+        (self.folder / "result.json").write_text(json.dumps({"paths": summaries, "model": "kob-andersen"}))
+        (self.folder / "run.toml").write_text("temperature = 1.0\n")
+        for number in range(1, len(summaries) + 1):
+            write_table(self.folder / f"path-{number:04}-trace.csv", PATH_HEADER, path_rows(rows, gap))
+            (self.folder / f"path-{number:04}.extxyz").write_text("5\n")
+
+    def write_end_points(self, phases):
+        write_table(self.folder / "endpoints-trace.csv", END_POINT_HEADER, end_point_rows(phases))
+        write_table(self.folder / "radial-distribution.csv", "r,g_Ni_Ni,g_Ni_P,g_P_P", [f"{0.1 * k},{k % 2},1,0" for k in range(20)])
+
+    def plot(self):
+        return subprocess.run([sys.executable, str(SCRIPT), str(self.folder)], capture_output=True, text=True, check=False)
+
+    def figures(self):
+        return sorted(file.name for file in self.folder.glob("*.png"))
+
+    def assert_draws(self, *names):
+        run = self.plot()
+        self.assertEqual((run.returncode, run.stdout, run.stderr), (0, "", ""))
+        self.assertEqual(self.figures(), sorted(names))
+        for name in names:
+            data = (self.folder / name).read_bytes()
+            self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
+            width, height = struct.unpack(">II", data[16:24])
+            self.assertTrue(900 <= width <= 2500 and 700 <= height <= 2500, f"{name}: {width} x {height}")
+            self.assertGreater(len(data), 20_000, name)
+
+    def assert_refuses(self, named):
+        run = self.plot()
+        self.assertEqual((run.returncode, run.stdout), (2, ""))
+        self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
+        self.assertIn(named, run.stderr)
+        self.assertEqual(self.figures(), [])
+
+    def test_one_path_and_its_equilibration_give_two_figures(self):
+        self.write_run([path_summary()])
+        self.write_end_points(["melting"] * 9 + ["cooling"] * 20 + ["temperature check"] * 20 + ["settling"] * 20
+                              + ["towards the far end point"] * 60)
+        self.assert_draws("path-0001.png", "equilibration.png")
+
+    def test_several_paths_give_a_summary_too(self):
+        self.write_run([path_summary(ratio=0.25), path_summary(ratio=0.3), path_summary("stalled", None)])
+        self.assert_draws("path-0001.png", "path-0002.png", "path-0003.png", "paths.png")
+
+    def test_one_path_that_reached_its_goal_has_no_summary(self):
+        self.write_run([path_summary(), path_summary("step_limit", None)])
+        self.assert_draws("path-0001.png", "path-0002.png")
+
+    def test_equal_ratios_can_be_drawn(self):
+        self.write_run([path_summary(), path_summary()], rows=5)
+        self.assert_draws("path-0001.png", "path-0002.png", "paths.png")
+
+    def test_a_stalled_path_can_be_drawn(self):
+        self.write_run([path_summary("stalled", None, "escape")], gap=-1e-9)
+        self.assert_draws("path-0001.png")
+
+    def test_a_trace_of_one_row_can_be_drawn(self):
+        self.write_run([path_summary("interrupted", None)], rows=1)
+        self.write_end_points(["melting"])
+        self.assert_draws("path-0001.png", "equilibration.png")
+
+    def test_a_trace_without_rows_can_be_drawn(self):
+        self.write_run([path_summary("interrupted", None)], rows=0)
+        self.assert_draws("path-0001.png")
+
+    def test_a_path_exactly_at_the_landscape_energy_can_be_drawn(self):
+        self.write_run([path_summary()], gap=0.0)
+        self.assert_draws("path-0001.png")
+
+    def test_end_points_interrupted_while_cooling_can_be_drawn(self):
+        self.write_run([])
+        self.write_end_points(["melting"] * 9 + ["cooling"] * 3)
+        self.assert_draws("equilibration.png")
+
+    def test_a_missing_folder_is_refused(self):
+        self.folder = self.folder / "nowhere"
+        self.assert_refuses("nowhere")
+
+    def test_a_missing_result_is_refused(self):
+        self.assert_refuses("result.json")
+
+    def test_a_missing_trace_is_refused(self):
+        self.write_run([path_summary(), path_summary()])
+        (self.folder / "path-0002-trace.csv").unlink()
+        self.assert_refuses("path-0002-trace.csv")
+
+    def test_a_missing_radial_distribution_is_refused(self):
+        self.write_run([path_summary()])
+        self.write_end_points(["melting"] * 3)
+        (self.folder / "radial-distribution.csv").unlink()
+        self.assert_refuses("radial-distribution.csv")
+
+    def test_a_damaged_trace_is_refused(self):
+        self.write_run([path_summary()])
+        write_table(self.folder / "path-0001-trace.csv", PATH_HEADER, ["1,2,3"])
+        self.assert_refuses("path-0001-trace.csv")
+
+    def test_an_empty_run_is_refused(self):
+        self.write_run([])
+        self.assert_refuses("nothing to draw")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,464 @@
+#!/usr/bin/python3
+"""Draw the figures of a run's folder: tools/plot.py DIR
+
+Reads from DIR what `lanescape path` and `lanescape endpoints` write there:
+  result.json               outcome, length, landscape energy, ... of each path (required)
+  run.toml                  the target temperature (optional)
+  path-0001-trace.csv ...   one per path in result.json
+  path-0001.extxyz ...      only the first line, the number of particles (optional)
+  endpoints-trace.csv, radial-distribution.csv     where end points were made
+
+Writes into DIR:
+  path-0001.png ...   energy, distance to the goal, share of direct steps and participation ratio along the path
+  paths.png           (DeltaR/g)^2 and n/N of all paths with mean and standard error, from two paths that reached their goal on
+  equilibration.png   temperature, potential energy, energy drift and radial distribution functions
+
+Exit status 0, or 2 with one line on stderr when something is missing or cannot be read; then nothing is drawn.
+Lengths are in sigma, energies in epsilon, temperatures in epsilon/k_B.
+"""
+
+import csv
+import json
+import sys
+import tomllib
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
+from matplotlib.transforms import blended_transform_factory
+
+# Okabe and Ito, told apart with every common colour vision.
+BLUE, VERMILLION, GREEN, PURPLE, GREY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#595959"
+PAIR_STYLES = [(BLUE, "-"), (VERMILLION, "--"), (GREEN, "-."), (PURPLE, ":"), ("#E69F00", "-"), ("#56B4E9", "--")]
+FREE_PHASES = ("settling", "towards the far end point", "between pairs")
+SHORT_PHASE = {"temperature check": "T check", "towards the far end point": "pairs", "between pairs": "pairs"}
+HISTOGRAM_FROM = 10  # paths
+MODEL_NAMES = {"kob-andersen": "Kob-Andersen", "lennard-jones": "Lennard-Jones"}
+
+plt.rcParams.update({
+    "font.size": 13, "axes.labelsize": 14, "axes.titlesize": 15, "legend.fontsize": 12, "xtick.labelsize": 12, "ytick.labelsize": 12,
+    "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False, "savefig.dpi": 150, "lines.linewidth": 2.0,
+    "mathtext.fontset": "dejavusans", "axes.linewidth": 1.0,
+})
+
+
+class Unusable(Exception):
+    """What is missing or unreadable, in one line."""
+
+
+# ---- reading
+
+def read_text(file):
+    try:
+        return file.read_text()
+    except (OSError, UnicodeDecodeError) as error:
+        raise Unusable(f"{file}: {getattr(error, 'strerror', None) or 'not a text file'}") from error
+
+
+def read_result(folder):
+    if not folder.is_dir():
+        raise Unusable(f"{folder}: no such folder")
+    file = folder / "result.json"
+    try:
+        result = json.loads(read_text(file))
+    except json.JSONDecodeError as error:
+        raise Unusable(f"{file}: line {error.lineno}: not JSON: {error.msg}") from error
+    if not isinstance(result, dict):
+        raise Unusable(f"{file}: not a JSON object")
+    return result
+
+
+def read_run_file(folder):
+    file = folder / "run.toml"
+    if not file.exists():
+        return {}
+    try:
+        return tomllib.loads(read_text(file))
+    except tomllib.TOMLDecodeError as error:
+        raise Unusable(f"{file}: not TOML: {error}") from error
+
+
+def read_table(file, required):
+    """Columns by name, as arrays of numbers; `phase` stays text."""
+    rows = list(csv.DictReader(read_text(file).splitlines()))
+    header = read_text(file).partition("\n")[0].split(",")
+    missing = [name for name in required if name not in header]
+    if missing:
+        raise Unusable(f"{file}: no column {missing[0]}")
+    try:
+        return {name: np.array([row[name] if name == "phase" else float(row[name]) for row in rows]) for name in header}
+    except (TypeError, ValueError) as error:
+        raise Unusable(f"{file}: not a table of numbers: {error}") from error
+
+
+def read_path(folder, number, summary):
+    """The summary of a path in result.json with its trace and number of particles (None where unknown)."""
+    name = f"path-{number:04}"
+    trace = read_table(folder / f"{name}-trace.csv",
+                       ["length", "distance_to_goal", "energy", "direct_fraction", "participation_ratio"])
+    for key in ("outcome", "length", "distance", "landscape_energy"):
+        if key not in summary:
+            raise Unusable(f"{folder / 'result.json'}: path {number} has no {key}")
+    particles = None
+    if (folder / f"{name}.extxyz").exists():
+        with open(folder / f"{name}.extxyz") as file:
+            first = file.readline().strip()
+        particles = int(first) if first.isdigit() else None
+    return {**summary, "name": name, "trace": trace, "particles": particles}
+
+
+# ---- series
+
+def running(values, statistic, windows=50):
+    """A statistic over a sliding window of 1/windows of the series, cut short at both ends."""
+    half = max(0, len(values) // (2 * windows))
+    padded = np.pad(np.asarray(values, float), half, constant_values=np.nan)
+    return statistic(np.lib.stride_tricks.sliding_window_view(padded, 2 * half + 1), axis=1)
+
+
+def binned_mean(x, y, end, bins=70):
+    """Means of y in equal bins of x over [0, end] (0 where a bin is empty) and the bins' edges."""
+    edges = np.linspace(0.0, end, min(bins, max(1, len(x))) + 1)
+    count = np.histogram(x, edges)[0]
+    return np.histogram(x, edges, weights=y)[0] / np.maximum(count, 1), edges
+
+
+def draw_series(axes, x, y, colour, statistic=np.nanmedian, label=None):
+    """The raw series as a light line and its running statistic; single points get a marker."""
+    marker = "o" if len(x) < 3 else None
+    axes.plot(x, y, color=colour, alpha=0.3, linewidth=0.8)
+    axes.plot(x, running(y, statistic), color=colour, marker=marker, label=label)
+
+
+def legend_above(axes, columns=4):
+    """A legend between the panels, where no data can be."""
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=columns, borderaxespad=0.0, borderpad=0.3, handlelength=1.6, columnspacing=1.4)
+
+
+def letter(axes, text):
+    axes.set_title(text, loc="left", fontsize=13, pad=8.0)
+
+
+def save(figure, file):
+    figure.savefig(file, bbox_inches="tight", pad_inches=0.15)
+    plt.close(figure)
+
+
+# ---- one path
+
+def path_title(path, result, temperature):
+    model = result.get("model", "")
+    first = [MODEL_NAMES.get(model, model)]
+    if temperature is not None:
+        first.append(f"$T={temperature:g}$")
+    if path["particles"]:
+        first.append(f"$N={path['particles']}$")
+    first.append(f"{path_method(path)} method" + (", from $R_f$ to $R_i$" if path.get("reversed") else ""))
+    second = [rf"$\Delta R={path['distance']:.1f}\,\sigma$", rf"$g={path['length']:.4g}\,\sigma$"]
+    if path.get("ratio_squared") is not None:
+        second.append(rf"$(\Delta R/g)^2={path['ratio_squared']:.4g}$")
+    else:
+        second.append(path["outcome"].replace("_", " ") + " before the goal")
+    return ",  ".join(first) + "\n" + ",  ".join(second)
+
+
+def path_method(path):
+    return next((kind for kind in path.get("steps", {}) if kind != "direct"), "direct")
+
+
+def draw_gap(axes, path, temperature):
+    """How far below the landscape energy the path runs; the little that a tolerance lets pass above it in another colour."""
+    gap = path["landscape_energy"] - path["trace"]["energy"]
+    x, size = path["trace"]["length"], np.where(gap == 0.0, np.nan, np.abs(gap))
+    above = np.count_nonzero(gap < 0.0) > len(gap) / 2
+    colour, label = (VERMILLION, "$V>E_L$") if above else (BLUE, "$V<E_L$")
+    if np.isfinite(size).any():
+        draw_series(axes, x, size, colour, label=label)
+        axes.set_yscale("log")
+        axes.yaxis.set_major_locator(LogLocator(numticks=6))
+        axes.yaxis.set_minor_locator(NullLocator())
+    if temperature:
+        axes.axhline(temperature, color=GREY, linestyle=":", label=r"$k_\mathrm{B}T$")
+    axes.set_ylabel(r"$|E_L-V|\;\;[\epsilon]$" if above else r"$E_L-V\;\;[\epsilon]$")
+    letter(axes, f"(a) gap to landscape energy $E_L={path['landscape_energy']:.2f}$")
+    legend_above(axes)
+
+
+def draw_distance(axes, path):
+    trace, straight = path["trace"], path["distance"]
+    axes.plot(trace["length"], trace["distance_to_goal"], color=BLUE, marker="o" if len(trace["length"]) < 3 else None, label="path")
+    axes.plot([0.0, straight], [straight, 0.0], color=GREY, linestyle="--", label=r"straight line, $\Delta R-\ell$")
+    axes.set_ylim(0.0, 1.05 * straight)
+    axes.set_ylabel(r"$|R_f-R|\;\;[\sigma]$" if not path.get("reversed") else r"$|R_i-R|\;\;[\sigma]$")
+    letter(axes, "(b) distance to the goal")
+    legend_above(axes)
+
+
+def draw_step_kinds(axes, path, end):
+    share, edges = binned_mean(path["trace"]["length"], path["trace"]["direct_fraction"], end)
+    counts = ", ".join(f"{count:,} {kind}".replace(",", "\u2009") for kind, count in path.get("steps", {}).items())
+    letter(axes, f"(c) share of direct steps  ({counts})")
+    if share.max() > 0.0:
+        floor = 10.0 ** np.floor(np.log10(share[share > 0.0].min()) - 0.01)
+        axes.stairs(np.maximum(share, floor), edges, baseline=floor, fill=True, color=GREEN)
+        axes.set_yscale("log")
+        axes.set_ylim(floor, 1.3)
+        axes.yaxis.set_major_locator(LogLocator(numticks=4))
+        axes.yaxis.set_minor_locator(NullLocator())
+    else:
+        axes.set_ylim(0.0, 1.0)
+        axes.text(0.5, 0.45, "no direct steps recorded", transform=axes.transAxes, ha="center", color=GREY)
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{100.0 * value:g} %"))
+    axes.set_ylabel("direct")
+
+
+def draw_participation(axes, path):
+    x, y = path["trace"]["length"], path["trace"]["participation_ratio"]
+    low, high = (running(y, lambda v, axis, q=q: np.nanpercentile(v, q, axis=axis)) for q in (10, 90))
+    axes.fill_between(x, low, high, color=PURPLE, alpha=0.3, linewidth=0, label="10\u201390 %")
+    axes.plot(x, running(y, np.nanmedian), color=PURPLE, marker="o" if len(x) < 3 else None, label="running median")
+    if path.get("participation_ratio") is not None:
+        axes.axhline(path["participation_ratio"], color="black", linestyle="--", linewidth=1.5,
+                     label=f"path mean {path['participation_ratio']:.3f}")
+    axes.set_ylim(0.0, max(0.8, 1.05 * y.max()))
+    axes.set_ylabel("$n/N$")
+    letter(axes, "(d) participation ratio")
+    legend_above(axes)
+
+
+def draw_path(folder, path, result, temperature):
+    figure, panels = plt.subplots(4, 1, sharex=True, figsize=(10.0, 10.5), gridspec_kw={"height_ratios": [3, 3, 1.7, 2.3], "hspace": 0.34})
+    figure.suptitle(path_title(path, result, temperature), y=0.965, fontsize=15)
+    if len(path["trace"]["length"]) == 0:
+        panels[0].text(0.5, 0.5, "no step was recorded", transform=panels[0].transAxes, ha="center", color=GREY)
+    else:
+        end = max(path["length"], path["trace"]["length"][-1])
+        draw_gap(panels[0], path, temperature)
+        draw_distance(panels[1], path)
+        draw_step_kinds(panels[2], path, end)
+        draw_participation(panels[3], path)
+        panels[3].set_xlim(0.0, end)
+    panels[3].set_xlabel(r"path length traversed $\ell\;\;[\sigma]$")
+    figure.align_ylabels(panels)
+    save(figure, folder / f"{path['name']}.png")
+
+
+# ---- all paths
+
+def draw_strip(axes, histogram, numbers, values, label, colour):
+    """Values by path number, their mean and its standard error; a histogram where there are panels for it."""
+    mean, error = values.mean(), values.std(ddof=1) / np.sqrt(len(values))
+    axes.axhspan(mean - error, mean + error, color=colour, alpha=0.25, linewidth=0)
+    axes.axhline(mean, color=colour)
+    axes.plot(numbers, values, "o", color=colour, markersize=8, markeredgecolor="white")
+    digits = max(0, 1 - int(np.floor(np.log10(error)))) if error > 0.0 else 4
+    axes.set_title(rf"mean {mean:.{digits}f} $\pm$ {error:.{digits}f}", loc="left", fontsize=13)
+    axes.set_ylabel(label)
+    axes.margins(x=0.08, y=0.15)
+    axes.xaxis.set_major_locator(MaxNLocator(nbins=8, integer=True))
+    if histogram is not None:
+        histogram.hist(values, bins=int(np.ceil(np.sqrt(len(values)))), orientation="horizontal", color=colour, alpha=0.6, edgecolor="white")
+        histogram.xaxis.set_major_locator(MaxNLocator(nbins=3, integer=True))
+        histogram.tick_params(labelleft=False)
+
+
+def draw_paths(folder, paths, result, temperature):
+    reached = [(number, path) for number, path in enumerate(paths, 1) if path.get("ratio_squared") is not None]
+    if len(reached) < 2:
+        return
+    numbers = [number for number, _ in reached]
+    columns = 2 if len(reached) >= HISTOGRAM_FROM else 1
+    figure, panels = plt.subplots(2, columns, squeeze=False, sharey="row", sharex="col", figsize=(9.0, 7.0),
+                                  gridspec_kw={"width_ratios": [3.5, 1][:columns], "wspace": 0.06, "hspace": 0.25})
+    model = result.get("model", "")
+    parts = [MODEL_NAMES.get(model, model)]
+    parts += [f"$T={temperature:g}$"] if temperature is not None else []
+    parts += [f"$N={paths[0]['particles']}$"] if paths[0]["particles"] else []
+    parts += [f"{path_method(paths[0])} method\n{len(reached)} of {len(paths)} paths reached the goal"]
+    figure.suptitle(",  ".join(parts), y=0.99, fontsize=15)
+    rows = (("ratio_squared", r"$(\Delta R/g)^2$", BLUE), ("participation_ratio", "$n/N$", PURPLE))
+    for (key, label, colour), row in zip(rows, panels):
+        draw_strip(row[0], row[1] if columns == 2 else None, numbers, np.array([path[key] for _, path in reached]), label, colour)
+    panels[1, 0].set_xlabel("path")
+    if columns == 2:
+        panels[1, 1].set_xlabel("count")
+    figure.align_ylabels(panels[:, 0])
+    save(figure, folder / "paths.png")
+
+
+# ---- equilibration
+
+def phase_spans(trace):
+    """(name, begin, end) of each phase in time, neighbours of one short name merged."""
+    names = [SHORT_PHASE.get(name, name) for name in trace["phase"]]
+    spans = []
+    for name, time in zip(names, trace["time"]):
+        if spans and spans[-1][0] == name:
+            spans[-1][2] = time
+        else:
+            if spans:
+                spans[-1][2] = time
+            spans.append([name, time, time])
+    return spans
+
+
+def shade_phases(axes, spans, end):
+    for k, (_, begin, finish) in enumerate(spans):
+        if k % 2 == 0 and begin < end:
+            axes.axvspan(begin, min(finish, end), color="#E8E8E8", linewidth=0, zorder=0)
+
+
+def label_phases(axes, spans, end):
+    """Phase names above the panel; a name too wide for its place moves up a line."""
+    renderer = axes.figure.canvas.get_renderer()
+    right, place = [], blended_transform_factory(axes.transData, axes.transAxes)
+    for name, begin, finish in spans:
+        if begin >= end:
+            continue
+        text = axes.text((begin + min(finish, end)) / 2.0, 1.02, name, transform=place, ha="center", va="bottom", fontsize=12, color=GREY)
+        box = text.get_window_extent(renderer)
+        level = next((k for k, edge in enumerate(right) if box.x0 > edge + 6.0), len(right))
+        right[level:level + 1] = [box.x1]
+        text.set_y(1.02 + level * 1.15 * box.height / axes.bbox.height)
+
+
+def draw_equilibration_series(upper, lower, trace, temperature):
+    """Temperature and potential energy until a while after the first pair was begun."""
+    spans = phase_spans(trace)
+    pairs_begin = next((begin for name, begin, _ in spans if name == "pairs"), np.inf)
+    end = min(max(trace["time"][-1], 1e-9), 1.2 * pairs_begin)
+    shown = trace["time"] <= end
+    time, measured = trace["time"][shown], np.isin(trace["phase"], FREE_PHASES)
+    draw_series(upper, time, trace["temperature"][shown], VERMILLION, np.nanmean, "running mean")
+    if temperature is not None:
+        melted = max([0.0] + [finish for name, _, finish in spans if name == "melting" and finish < end])
+        upper.plot([melted, end], [temperature, temperature], color="black", linestyle="--", linewidth=1.5, label=f"target $T={temperature:g}$")
+    if measured.any():
+        upper.plot([], [], " ", label=rf"$\langle T\rangle={trace['temperature'][measured].mean():.4g}$ once settling")
+    upper.set_ylabel(r"$T\;\;[\epsilon/k_\mathrm{B}]$")
+    low, high = upper.get_ylim()
+    upper.set_ylim(low, high + 0.25 * (high - low))
+    upper.legend(loc="upper right", ncol=3, columnspacing=1.4)
+    draw_series(lower, time, trace["potential_energy_per_particle"][shown], BLUE, np.nanmean, "running mean")
+    lower.set_ylabel(r"$V/N\;\;[\epsilon]$")
+    lower.set_xlabel(r"time $t\;\;[\sigma\sqrt{m/\epsilon}\,]$")
+    upper.set_xlim(0.0, end)
+    for axes in (upper, lower):
+        shade_phases(axes, spans, end)
+    label_phases(upper, spans, end)
+
+
+def draw_drift(axes, trace):
+    """Energy per particle without thermostat: its scatter and slope say how well the time step conserves it."""
+    free = np.isin(trace["phase"], FREE_PHASES)
+    axes.set_title("energy without thermostat", loc="left", fontsize=13)
+    axes.set_xlabel(r"time $t\;\;[\sigma\sqrt{m/\epsilon}\,]$")
+    axes.set_ylabel(r"$(E-\langle E\rangle)/N\;\;[10^{-4}\,\epsilon]$")
+    if not free.any():
+        axes.text(0.5, 0.5, "not reached", transform=axes.transAxes, ha="center", color=GREY)
+        return
+    time, energy = trace["time"][free], trace["energy_per_particle"][free]
+    deviation = 1e4 * (energy - energy.mean())
+    draw_series(axes, time, deviation, GREEN, np.nanmean)
+    span = max(np.abs(deviation).max(), 0.1)
+    axes.set_ylim(-1.2 * span, 1.9 * span)
+    axes.xaxis.set_major_locator(MaxNLocator(nbins=5))
+    if len(time) > 2:
+        drift = np.polyfit(time - time[0], energy, 1)[0] * (time[-1] - time[0])
+        scatter = trace["potential_energy_per_particle"][free].std()
+        axes.text(0.98, 0.97, f"drift over the run ${in_powers(drift)}\\,\\epsilon$\nrms of $V/N$ is ${in_powers(scatter)}\\,\\epsilon$",
+                  transform=axes.transAxes, ha="right", va="top", fontsize=12)
+
+
+def in_powers(value):
+    mantissa, exponent = f"{value:.1e}".split("e")
+    return rf"{mantissa}\times 10^{{{int(exponent)}}}"
+
+
+def pair_label(column, model):
+    species = column.split("_")[1:]
+    if model == "kob-andersen":
+        species = [{"Ni": "A", "P": "B"}.get(name, name) for name in species]
+    return "$g_{\\mathrm{" + "".join(species) + "}}$"
+
+
+def draw_radial_distribution(axes, table, model):
+    pairs = [name for name in table if name.startswith("g_")]
+    for k, name in enumerate(pairs):
+        colour, style = PAIR_STYLES[k % len(PAIR_STYLES)]
+        axes.plot(table["r"], table[name], color=colour, linestyle=style, label=pair_label(name, model))
+    axes.axhline(1.0, color=GREY, linewidth=1.0, zorder=0)
+    axes.set_title("radial distribution functions", loc="left", fontsize=13)
+    axes.set_xlabel(r"$r\;\;[\sigma]$")
+    axes.set_ylabel(r"$g_{\alpha\beta}(r)$")
+    axes.set_ylim(bottom=0.0)
+    if len(table["r"]):
+        axes.set_xlim(0.0, table["r"][-1])
+    axes.legend(loc="upper right")
+
+
+def draw_equilibration(folder, trace, radial, result, temperature):
+    figure = plt.figure(figsize=(11.0, 11.0))
+    grid = figure.add_gridspec(2, 1, height_ratios=[1.75, 1], hspace=0.3)
+    series = grid[0].subgridspec(2, 1, hspace=0.1)
+    below = grid[1].subgridspec(1, 2, wspace=0.28)
+    upper = figure.add_subplot(series[0])
+    lower = figure.add_subplot(series[1], sharex=upper)
+    upper.tick_params(labelbottom=False)
+    draw_equilibration_series(upper, lower, trace, temperature)
+    drift = figure.add_subplot(below[0])
+    draw_drift(drift, trace)
+    draw_radial_distribution(figure.add_subplot(below[1]), radial, result.get("model"))
+    figure.align_ylabels([upper, lower, drift])
+    model = result.get("model", "")
+    figure.suptitle(" ".join(["Equilibration", *(["of " + MODEL_NAMES.get(model, model)] if model else [])]), y=0.945, fontsize=15)
+    save(figure, folder / "equilibration.png")
+
+
+# ---- program
+
+def target_temperature(run):
+    value = run.get("temperature")
+    return float(value) if isinstance(value, (int, float)) else None
+
+
+def draw_folder(folder):
+    """Read everything, then draw: a folder that lacks a file gets no figure."""
+    result, run = read_result(folder), read_run_file(folder)
+    paths = [read_path(folder, number, summary) for number, summary in enumerate(result.get("paths", []), 1)]
+    equilibration = None
+    if (folder / "endpoints-trace.csv").exists():
+        equilibration = (read_table(folder / "endpoints-trace.csv",
+                                    ["time", "temperature", "potential_energy_per_particle", "energy_per_particle", "phase"]),
+                         read_table(folder / "radial-distribution.csv", ["r"]))
+    if not paths and equilibration is None:
+        raise Unusable(f"{folder}: neither paths in result.json nor endpoints-trace.csv: nothing to draw")
+    made = {**result, "model": result.get("model") or run.get("model", "")}
+    temperature = target_temperature(run)
+    for path in paths:
+        draw_path(folder, path, made, temperature)
+    draw_paths(folder, paths, made, temperature)
+    if equilibration is not None and len(equilibration[0]["time"]) > 0:
+        draw_equilibration(folder, *equilibration, made, temperature)
+
+
+def main(arguments):
+    if len(arguments) != 1 or arguments[0].startswith("-"):
+        wanted_help = arguments in (["-h"], ["--help"])
+        print(__doc__ if wanted_help else "plot.py: needs one argument, the folder of a run", file=sys.stdout if wanted_help else sys.stderr)
+        return 0 if wanted_help else 2
+    try:
+        draw_folder(Path(arguments[0]))
+    except Unusable as error:
+        print(f"plot.py: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
