@@ -86,9 +86,5 @@ void register_all() {
 
 int main(int argc, char** argv) {
   lanescape::bench::register_all();
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
-  return 0;
+  return lanescape::bench::run_benchmarks(argc, argv);
 }

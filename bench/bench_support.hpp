@@ -63,4 +63,13 @@ inline double seconds_per_vector_instruction(Isa isa) {
   return measured.emplace(isa, best).first->second;
 }
 
+// What a benchmark's main does; 2 for arguments it does not know.
+inline int run_benchmarks(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+}
+
 }  // namespace lanescape::bench

@@ -84,8 +84,8 @@ def read_run_file(folder):
 
 def read_table(file, required):
     """Columns by name, as arrays of numbers; `phase` stays text."""
-    rows = list(csv.DictReader(read_text(file).splitlines()))
-    header = read_text(file).partition("\n")[0].split(",")
+    reader = csv.DictReader(read_text(file).splitlines())
+    header, rows = reader.fieldnames or [], list(reader)
     missing = [name for name in required if name not in header]
     if missing:
         raise Unusable(f"{file}: no column {missing[0]}")
@@ -100,9 +100,9 @@ def read_path(folder, number, summary):
     name = f"path-{number:04}"
     trace = read_table(folder / f"{name}-trace.csv",
                        ["length", "distance_to_goal", "energy", "direct_fraction", "participation_ratio"])
-    for key in ("outcome", "length", "distance", "landscape_energy"):
-        if key not in summary:
-            raise Unusable(f"{folder / 'result.json'}: path {number} has no {key}")
+    for key in ("length", "distance", "landscape_energy"):
+        if not isinstance(summary.get(key), (int, float)):
+            raise Unusable(f"{folder / 'result.json'}: {key} of path {number} is not a number")
     particles = None
     if (folder / f"{name}.extxyz").exists():
         with open(folder / f"{name}.extxyz") as file:
@@ -127,17 +127,18 @@ def binned_mean(x, y, end, bins=70):
     return np.histogram(x, edges, weights=y)[0] / np.maximum(count, 1), edges
 
 
-def draw_series(axes, x, y, colour, statistic=np.nanmedian, label=None):
+def draw_series(axes, x, y, colour, statistic=np.nanmedian, label=None, windows=50):
     """The raw series as a light line and its running statistic; single points get a marker."""
     marker = "o" if len(x) < 3 else None
     axes.plot(x, y, color=colour, alpha=0.3, linewidth=0.8)
-    axes.plot(x, running(y, statistic), color=colour, marker=marker, label=label)
+    axes.plot(x, running(y, statistic, windows), color=colour, marker=marker, label=label)
 
 
 def legend_above(axes, columns=4):
     """A legend between the panels, where no data can be."""
     if axes.get_legend_handles_labels()[0]:
-        axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=columns, borderaxespad=0.0, borderpad=0.3, handlelength=1.6, columnspacing=1.4)
+        axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=columns, borderaxespad=0.0, borderpad=0.3,
+                    handlelength=1.6, columnspacing=1.4)
 
 
 def letter(axes, text):
@@ -149,21 +150,24 @@ def save(figure, file):
     plt.close(figure)
 
 
+def system_parts(result, temperature, particles):
+    """What a title says of the system, as far as it is known."""
+    model = result.get("model", "")
+    parts = [MODEL_NAMES.get(model, model)] if model else []
+    parts += [f"$T={temperature:g}$"] if temperature is not None else []
+    return parts + ([f"$N={particles}$"] if particles else [])
+
+
 # ---- one path
 
 def path_title(path, result, temperature):
-    model = result.get("model", "")
-    first = [MODEL_NAMES.get(model, model)]
-    if temperature is not None:
-        first.append(f"$T={temperature:g}$")
-    if path["particles"]:
-        first.append(f"$N={path['particles']}$")
+    first = system_parts(result, temperature, path["particles"])
     first.append(f"{path_method(path)} method" + (", from $R_f$ to $R_i$" if path.get("reversed") else ""))
     second = [rf"$\Delta R={path['distance']:.1f}\,\sigma$", rf"$g={path['length']:.4g}\,\sigma$"]
     if path.get("ratio_squared") is not None:
         second.append(rf"$(\Delta R/g)^2={path['ratio_squared']:.4g}$")
     else:
-        second.append(path["outcome"].replace("_", " ") + " before the goal")
+        second.append(path.get("outcome", "ended").replace("_", " ") + " before the goal")
     return ",  ".join(first) + "\n" + ",  ".join(second)
 
 
@@ -185,7 +189,7 @@ def draw_gap(axes, path, temperature):
     if temperature:
         axes.axhline(temperature, color=GREY, linestyle=":", label=r"$k_\mathrm{B}T$")
     axes.set_ylabel(r"$|E_L-V|\;\;[\epsilon]$" if above else r"$E_L-V\;\;[\epsilon]$")
-    letter(axes, f"(a) gap to landscape energy $E_L={path['landscape_energy']:.2f}$")
+    letter(axes, f"(a) gap to landscape energy $E_L=${path['landscape_energy']:.2f}".replace("-", "\u2212"))
     legend_above(axes)
 
 
@@ -262,7 +266,8 @@ def draw_strip(axes, histogram, numbers, values, label, colour):
     axes.margins(x=0.08, y=0.15)
     axes.xaxis.set_major_locator(MaxNLocator(nbins=8, integer=True))
     if histogram is not None:
-        histogram.hist(values, bins=int(np.ceil(np.sqrt(len(values)))), orientation="horizontal", color=colour, alpha=0.6, edgecolor="white")
+        histogram.hist(values, bins=int(np.ceil(np.sqrt(len(values)))), orientation="horizontal", color=colour, alpha=0.6,
+                       edgecolor="white")
         histogram.xaxis.set_major_locator(MaxNLocator(nbins=3, integer=True))
         histogram.tick_params(labelleft=False)
 
@@ -275,10 +280,7 @@ def draw_paths(folder, paths, result, temperature):
     columns = 2 if len(reached) >= HISTOGRAM_FROM else 1
     figure, panels = plt.subplots(2, columns, squeeze=False, sharey="row", sharex="col", figsize=(9.0, 7.0),
                                   gridspec_kw={"width_ratios": [3.5, 1][:columns], "wspace": 0.06, "hspace": 0.25})
-    model = result.get("model", "")
-    parts = [MODEL_NAMES.get(model, model)]
-    parts += [f"$T={temperature:g}$"] if temperature is not None else []
-    parts += [f"$N={paths[0]['particles']}$"] if paths[0]["particles"] else []
+    parts = system_parts(result, temperature, paths[0]["particles"])
     parts += [f"{path_method(paths[0])} method\n{len(reached)} of {len(paths)} paths reached the goal"]
     figure.suptitle(",  ".join(parts), y=0.99, fontsize=15)
     rows = (("ratio_squared", r"$(\Delta R/g)^2$", BLUE), ("participation_ratio", "$n/N$", PURPLE))
@@ -327,6 +329,16 @@ def label_phases(axes, spans, end):
         text.set_y(1.02 + level * 1.15 * box.height / axes.bbox.height)
 
 
+def draw_by_phase(axes, time, values, spans, colour, label=None):
+    """The series with a running mean that does not reach across a change of phase."""
+    for _, begin, finish in spans:
+        inside = (time >= begin) & ((time < finish) | (finish == spans[-1][2]))
+        if inside.any():
+            windows = max(1, int(50 * np.count_nonzero(inside) / len(time)))
+            draw_series(axes, time[inside], values[inside], colour, np.nanmean, label, windows)
+            label = None
+
+
 def draw_equilibration_series(upper, lower, trace, temperature):
     """Temperature and potential energy until a while after the first pair was begun."""
     spans = phase_spans(trace)
@@ -334,17 +346,17 @@ def draw_equilibration_series(upper, lower, trace, temperature):
     end = min(max(trace["time"][-1], 1e-9), 1.2 * pairs_begin)
     shown = trace["time"] <= end
     time, measured = trace["time"][shown], np.isin(trace["phase"], FREE_PHASES)
-    draw_series(upper, time, trace["temperature"][shown], VERMILLION, np.nanmean, "running mean")
+    mean = rf", $\langle T\rangle={trace['temperature'][measured].mean():.3f}$ once settling" if measured.any() else ""
+    draw_by_phase(upper, time, trace["temperature"][shown], spans, VERMILLION, "running mean" + mean)
     if temperature is not None:
         melted = max([0.0] + [finish for name, _, finish in spans if name == "melting" and finish < end])
-        upper.plot([melted, end], [temperature, temperature], color="black", linestyle="--", linewidth=1.5, label=f"target $T={temperature:g}$")
-    if measured.any():
-        upper.plot([], [], " ", label=rf"$\langle T\rangle={trace['temperature'][measured].mean():.4g}$ once settling")
+        upper.plot([melted, end], [temperature, temperature], color="black", linestyle="--", linewidth=1.5,
+                   label=f"target $T={temperature:g}$")
     upper.set_ylabel(r"$T\;\;[\epsilon/k_\mathrm{B}]$")
     low, high = upper.get_ylim()
     upper.set_ylim(low, high + 0.25 * (high - low))
-    upper.legend(loc="upper right", ncol=3, columnspacing=1.4)
-    draw_series(lower, time, trace["potential_energy_per_particle"][shown], BLUE, np.nanmean, "running mean")
+    upper.legend(loc="upper right", ncol=2, columnspacing=1.4)
+    draw_by_phase(lower, time, trace["potential_energy_per_particle"][shown], spans, BLUE)
     lower.set_ylabel(r"$V/N\;\;[\epsilon]$")
     lower.set_xlabel(r"time $t\;\;[\sigma\sqrt{m/\epsilon}\,]$")
     upper.set_xlim(0.0, end)
@@ -402,7 +414,7 @@ def draw_radial_distribution(axes, table, model):
     axes.legend(loc="upper right")
 
 
-def draw_equilibration(folder, trace, radial, result, temperature):
+def draw_equilibration(folder, trace, radial, result, temperature, particles):
     figure = plt.figure(figsize=(11.0, 11.0))
     grid = figure.add_gridspec(2, 1, height_ratios=[1.75, 1], hspace=0.3)
     series = grid[0].subgridspec(2, 1, hspace=0.1)
@@ -415,8 +427,7 @@ def draw_equilibration(folder, trace, radial, result, temperature):
     draw_drift(drift, trace)
     draw_radial_distribution(figure.add_subplot(below[1]), radial, result.get("model"))
     figure.align_ylabels([upper, lower, drift])
-    model = result.get("model", "")
-    figure.suptitle(" ".join(["Equilibration", *(["of " + MODEL_NAMES.get(model, model)] if model else [])]), y=0.945, fontsize=15)
+    figure.suptitle(",  ".join([*system_parts(result, temperature, particles), "equilibration"]), y=0.945, fontsize=15)
     save(figure, folder / "equilibration.png")
 
 
@@ -444,13 +455,14 @@ def draw_folder(folder):
         draw_path(folder, path, made, temperature)
     draw_paths(folder, paths, made, temperature)
     if equilibration is not None and len(equilibration[0]["time"]) > 0:
-        draw_equilibration(folder, *equilibration, made, temperature)
+        draw_equilibration(folder, *equilibration, made, temperature, paths[0]["particles"] if paths else None)
 
 
 def main(arguments):
     if len(arguments) != 1 or arguments[0].startswith("-"):
         wanted_help = arguments in (["-h"], ["--help"])
-        print(__doc__ if wanted_help else "plot.py: needs one argument, the folder of a run", file=sys.stdout if wanted_help else sys.stderr)
+        text = __doc__ if wanted_help else "plot.py: needs one argument, the folder of a run"
+        print(text, file=sys.stdout if wanted_help else sys.stderr)
         return 0 if wanted_help else 2
     try:
         draw_folder(Path(arguments[0]))

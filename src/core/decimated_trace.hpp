@@ -16,12 +16,13 @@ class DecimatedTrace {
   DecimatedTrace(std::size_t columns, std::size_t capacity) : columns_(columns), capacity_(capacity) {}
 
   bool wants(std::uint64_t step) const { return step % stride_ == 0; }
-  // A row for a step that wants() accepted; steps rise.
+  // A row for a step that wants() accepted, from step 1 on, or the last one of all.
   void add(std::initializer_list<double> row) {
     values_.insert(values_.end(), row);
     if (rows() < capacity_) return;
+    // Of steps 1, 2, 3, ... the even ones stay: multiples of the new stride.
     std::size_t kept = 0;
-    for (std::size_t r = 0; r < rows(); r += 2, ++kept)
+    for (std::size_t r = 1; r < rows(); r += 2, ++kept)
       for (std::size_t c = 0; c < columns_; ++c) values_[kept * columns_ + c] = values_[r * columns_ + c];
     values_.resize(kept * columns_);
     stride_ *= 2;

@@ -80,8 +80,6 @@ class PathFinder {
     archive.field("largest_violation", largest_violation_);
     archive.field("best_distance", best_distance_);
     archive.field("best_step", best_step_);
-    archive.field("direct_steps_at_row", direct_steps_at_row_);
-    archive.field("steps_at_row", steps_at_row_);
     statistics_.exchange(archive);
     recorder_.exchange(archive);
     stepper_.exchange(archive, position_);
@@ -91,7 +89,9 @@ class PathFinder {
   void step() {
     algebra_->difference(to_goal_, goal_, position_);
     const PathPoint at{position_, to_goal_, algebra_->norm(to_goal_)};
-    if (at.distance < stepper_.step_length()) return hop();
+    if (steps() > 0 && recorder_.trace().wants(steps())) record(at.distance);
+    recorder_.keep_frame(position_, at.distance);
+    if (at.distance < stepper_.step_length()) return hop(at.distance);
     if (steps() >= options_.max_steps) return end(Outcome::step_limit, fmt::format("{} steps were allowed", options_.max_steps));
     if (no_progress(at.distance))
       return end(Outcome::stalled,
@@ -102,11 +102,11 @@ class PathFinder {
     statistics_.add(algebra_->displacement_moments(position_, next_));
     largest_violation_ = std::max(largest_violation_, stepper_.energy() - landscape_energy_);
     position_.swap(next_);
-    record(at.distance);
   }
 
   // The last displacement, counted in the length but not as a step.
-  void hop() {
+  void hop(double distance) {
+    if (!recorder_.trace().wants(steps())) record(distance);
     statistics_.add(algebra_->displacement_moments(position_, goal_));
     position_ = goal_;
     end(Outcome::reached, "");
@@ -126,15 +126,10 @@ class PathFinder {
     return steps() - best_step_ >= options_.patience;
   }
 
+  // `distance` from the point just accepted to the goal.
   void record(double distance) {
-    recorder_.keep_frame(position_, distance);
-    if (!recorder_.trace().wants(steps())) return;
-    const double direct = static_cast<double>(direct_steps_ - direct_steps_at_row_);
-    const double fraction = direct / static_cast<double>(std::max<std::uint64_t>(1, steps() - steps_at_row_));
-    direct_steps_at_row_ = direct_steps_;
-    steps_at_row_ = steps();
-    recorder_.trace().add({static_cast<double>(steps()), statistics_.length(), distance, stepper_.energy(), fraction,
-                           statistics_.last_participation_number()});
+    recorder_.trace().add({static_cast<double>(steps()), statistics_.length(), distance, stepper_.energy(),
+                           static_cast<double>(direct_steps_), statistics_.last_participation_number()});
   }
 
   const VectorAlgebra* algebra_;
@@ -148,7 +143,6 @@ class PathFinder {
   double largest_violation_ = 0.0;
   double best_distance_;
   std::uint64_t best_step_ = 0;
-  std::uint64_t direct_steps_at_row_ = 0, steps_at_row_ = 0;
   PathStatistics statistics_;
   PathRecorder recorder_;
 };

@@ -13,7 +13,8 @@ namespace lanescape {
 // trace of numbers over steps.
 class PathRecorder {
  public:
-  enum Column : std::size_t { step, length, distance, energy, direct_fraction, participation, columns };
+  // Rows of the trace: direct_steps counts from the start of the path, participation is the step's own n.
+  enum Column : std::size_t { step, length, distance, energy, direct_steps, participation, columns };
   static constexpr std::size_t trace_rows = 4096;
 
   // `frames` configurations besides the two ends.

@@ -20,7 +20,8 @@ def path_summary(outcome="reached", ratio=0.25, method="contour"):
 
 
 def path_rows(count, gap=0.01):
-    return [f"{k + 1},{20.0 * (k + 1) / count},{10.0 * (1 - (k + 1) / count)},{-50.0 - gap * (1 + k % 7)},{0.1 * (k % 2)},{0.4 + 0.01 * (k % 5)}"
+    return [f"{k + 1},{20.0 * (k + 1) / count},{10.0 * (1 - (k + 1) / count)},{-50.0 - gap * (1 + k % 7)},"
+            f"{0.1 * (k % 2)},{0.4 + 0.01 * (k % 5)}"
             for k in range(count)]
 
 

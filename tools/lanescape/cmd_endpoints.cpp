@@ -24,7 +24,7 @@ Subcommand add_endpoints(CLI::App& app) {
             folder.write_run_file("endpoints", options->resolved());
             EndPoints ends = make_end_points(model, start, protocol, isa, folder, state->common);
             status = ends.reached ? done : goal_not_reached;
-            write_result(folder, "endpoints", *options, ends.json);
+            write_result(folder, "endpoints", options->resolved(), ends.json);
             return ends.json;
           }};
 }

@@ -3,7 +3,6 @@
 #include "configuration/particle_layout.hpp"
 #include "core/error.hpp"
 #include "interaction/lennard_jones.hpp"
-#include "io/extended_xyz.hpp"
 #include "program.hpp"
 #include "verification/reference_bridge.hpp"
 
@@ -70,16 +69,14 @@ Subcommand add_energy(CLI::App& app) {
             const LennardJonesModel model = state->system.resolve();
             if (state->backend != "simd" && state->backend != "reference")
               throw_bad_input(fmt::format("--backend: '{}' is not allowed: simd or reference", state->backend));
-            const auto frame = ExtendedXyzReader(state->file, model).next();
-            const Configuration& configuration = frame->configuration;
-            check_separations(configuration, model);
+            const Configuration configuration = read_first_frame(state->file, model);
             const bool simd = state->backend == "simd";
             const LennardJones limits_checked(model, configuration.box, ParticleLayout(configuration.species, model.species.size()),
                                               kernel_table(isa));
             OutputFolder folder = open_folder(state->common);
             const EnergyResult e = simd ? by_kernels(model, configuration, isa) : by_reference(model, configuration);
             const Json result = to_json(e, configuration, model, simd ? to_string(isa) : "reference", state->forces);
-            write_result(folder, "energy", *options, result);
+            write_result(folder, "energy", options->resolved(), result);
             return result;
           }};
 }

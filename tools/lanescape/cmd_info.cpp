@@ -42,7 +42,7 @@ Subcommand add_info(CLI::App& app) {
             result["isa"] = to_string(active);
             result["lanes"] = kernel_table(active).lanes;
             result["threads"] = common->threads;
-            write_result(folder, "info", *options, result);
+            write_result(folder, "info", options->resolved(), result);
             return result;
           }};
 }

@@ -43,6 +43,8 @@ ConfigurationPair read_pair(const std::filesystem::path& file, const LennardJone
     throw_bad_input(fmt::format("{}: holds {} frames: a pair of end points is two", file.string(), frames.size()));
   ConfigurationPair pair{std::move(frames[0].configuration), std::move(frames[1].configuration), 0.0, 0};
   check_end_points(pair, model, file.string());
+  for (std::size_t k = 0; k < pair.start.positions.size(); ++k)
+    pair.distance = std::hypot(pair.distance, pair.finish.positions[k] - pair.start.positions[k]);
   return pair;
 }
 
@@ -88,6 +90,20 @@ void add_mean(Json& json, const std::vector<PathResult>& paths) {
   json["standard_error"] = n > 1.0 ? Json(std::sqrt(squares / (n * (n - 1.0)))) : Json();
 }
 
+void write_trace(std::ostream& out, const PathResult& path) {
+  out << "step,length,distance_to_goal,energy,direct_fraction,participation_ratio\n";
+  const DecimatedTrace& trace = path.trace;
+  double step_before = 0.0, direct_before = 0.0;
+  for (std::size_t r = 0; r < trace.rows(); ++r) {
+    const double step = trace.at(r, PathRecorder::step), direct = trace.at(r, PathRecorder::direct_steps);
+    fmt::print(out, "{:.0f},{},{},{},{},{}\n", step, trace.at(r, PathRecorder::length), trace.at(r, PathRecorder::distance),
+               trace.at(r, PathRecorder::energy), (direct - direct_before) / (step - step_before),
+               trace.at(r, PathRecorder::participation) / static_cast<double>(path.frames.front().size()));
+    step_before = step;
+    direct_before = direct;
+  }
+}
+
 void write_files(OutputFolder& folder, const std::vector<PathResult>& paths, PathMethod method, const LennardJonesModel& model) {
   folder.write("paths.csv", [&](std::ostream& out) {
     fmt::print(out, "path,outcome,length,distance,ratio_squared,participation_ratio,direct_steps,{}_steps,evaluations,seconds,"
@@ -104,17 +120,12 @@ void write_files(OutputFolder& folder, const std::vector<PathResult>& paths, Pat
     folder.write(fmt::format("path-{:04}.extxyz", k + 1), [&](std::ostream& out) {
       for (const Configuration& frame : p.frames) write_frame(out, frame, model, {});
     });
-    folder.write(fmt::format("path-{:04}-trace.csv", k + 1), [&](std::ostream& out) {
-      out << "step,length,distance_to_goal,energy,direct_fraction,participation_ratio\n";
-      for (std::size_t r = 0; r < p.trace.rows(); ++r)
-        fmt::print(out, "{:.0f},{},{},{},{},{}\n", p.trace.at(r, PathRecorder::step), p.trace.at(r, PathRecorder::length),
-                   p.trace.at(r, PathRecorder::distance), p.trace.at(r, PathRecorder::energy), p.trace.at(r, PathRecorder::direct_fraction),
-                   p.trace.at(r, PathRecorder::participation) / static_cast<double>(p.frames.front().size()));
-    });
+    folder.write(fmt::format("path-{:04}-trace.csv", k + 1), [&](std::ostream& out) { write_trace(out, p); });
   }
 }
 
-Json run_path(PathState& state, const Options& options, int& status) {
+// `setup_options` are those that end points are made with: not part of a run whose pairs come from files.
+Json run_path(PathState& state, const Options& options, const Options& setup_options, int& status) {
   state.common.check();
   const Isa isa = state.common.resolve_isa();
   const LennardJonesModel model = state.system.resolve();
@@ -134,8 +145,11 @@ Json run_path(PathState& state, const Options& options, int& status) {
     protocol = state.setup.resolve(model, start.size(), state.common.seed);
   }
 
+  toml::table resolved = options.resolved();
+  if (!from_files)
+    for (auto& [key, value] : setup_options.resolved()) resolved.insert_or_assign(key, value);
   OutputFolder folder = open_folder(state.common);
-  folder.write_run_file("path", options.resolved());
+  folder.write_run_file("path", resolved);
   Json result;
   if (from_files && resumed) pairs = read_kept_pairs(folder, model);
   if (from_files && !resumed)
@@ -165,7 +179,7 @@ Json run_path(PathState& state, const Options& options, int& status) {
   result["isa"] = to_string(isa);
   status = all_reached ? done : goal_not_reached;
   if (folder.exists()) write_files(folder, paths, path_options.method, model);
-  write_result(folder, "path", options, result);
+  write_result(folder, "path", resolved, result);
   if (state.plot) draw_plots(folder.path(), state.common);
   return result;
 }
@@ -185,10 +199,11 @@ Subcommand add_path(CLI::App& app) {
   options->add("--max-steps", state->max_steps, "steps of one path before giving up");
   options->add("--frames", state->frames, "configurations of each path to keep between its ends");
   options->add_flag("--plot", state->plot, "draw the path and the equilibration (needs --out)");
-  state->setup.add_to(*options);
+  const auto setup_options = std::make_shared<Options>(*sub);
+  state->setup.add_to(*setup_options);
   state->system.add_to(*options);
   state->common.add_to(*options);
-  return {sub, [=](int& status) { return run_path(*state, *options, status); }};
+  return {sub, [=](int& status) { return run_path(*state, *options, *setup_options, status); }};
 }
 
 }  // namespace lanescape::program

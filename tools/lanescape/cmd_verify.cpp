@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 
 #include "core/error.hpp"
-#include "interaction/lennard_jones.hpp"
 #include "io/atomic_file.hpp"
 #include "io/extended_xyz.hpp"
 #include "program.hpp"
@@ -19,7 +19,7 @@ namespace {
 void add_files(std::vector<LennardJonesCase>& cases, const std::vector<std::string>& files, const LennardJonesModel& model) {
   for (const std::string& file : files)
     for (const Frame& frame : read_frames(file, model)) {
-      check_separations(frame.configuration, model);
+      check_separations_in(file, frame.configuration, model);
       for (const ImageRule rule : {ImageRule::all, ImageRule::minimum}) {
         LennardJonesModel with_rule = model;
         with_rule.images = rule;
@@ -55,6 +55,8 @@ Subcommand add_verify(CLI::App& app) {
             std::vector<LennardJonesCase> cases = lennard_jones_cases();
             add_files(cases, state->files, state->system.resolve());
             OutputFolder folder = open_folder(state->common);
+            std::optional<TemporaryFile> junit;  // made first: a place that cannot be written to is bad input
+            if (!state->junit.empty()) junit.emplace(state->junit);
 
             std::vector<Deviation> deviations;
             for (const Isa isa : isas) {
@@ -73,10 +75,13 @@ Subcommand add_verify(CLI::App& app) {
                                            {"passed", d.passed()}});
             for (const Isa isa : {Isa::sse2, Isa::avx2, Isa::avx512})
               if (std::find(isas.begin(), isas.end(), isa) == isas.end())
-                result["skipped"].push_back({{"isa", to_string(isa)},
-                                             {"reason", one ? "not asked for" : "not available on this processor"}});
-            if (!state->junit.empty()) write_atomically(state->junit, [&](std::ostream& out) { write_junit(out, deviations); });
-            write_result(folder, "verify", *options, result);
+                result["skipped"].push_back(
+                    {{"isa", to_string(isa)}, {"reason", one ? "not asked for" : "not available on this processor"}});
+            if (junit) {
+              junit->write([&](std::ostream& out) { write_junit(out, deviations); });
+              junit->commit();
+            }
+            write_result(folder, "verify", options->resolved(), result);
             status = result["passed"].get<bool>() ? done : goal_not_reached;
             return result;
           }};

@@ -67,7 +67,7 @@ EndPointOptions EndPointSetup::resolve(const LennardJonesModel& model, std::size
 
 Configuration EndPointSetup::start(const LennardJonesModel& model, std::uint64_t seed) const {
   if (start_file_.empty()) return fcc_start(model, particles_, density_, seed);
-  return ExtendedXyzReader(start_file_, model).next()->configuration;
+  return read_first_frame(start_file_, model);
 }
 
 std::string pair_file_name(std::size_t number) { return fmt::format("pair-{:04}.extxyz", number + 1); }
@@ -82,7 +82,8 @@ void write_pair(OutputFolder& folder, std::size_t number, const ConfigurationPai
 
 namespace {
 
-void write_equilibration(OutputFolder& folder, const EndPointRunResult& run, const EndPointOptions& options, const LennardJonesModel& model) {
+void write_equilibration(OutputFolder& folder, const EndPointRunResult& run, const EndPointOptions& options,
+                         const LennardJonesModel& model) {
   folder.write("endpoints-trace.csv", [&](std::ostream& out) {
     out << "step,time,temperature,potential_energy_per_particle,energy_per_particle,phase\n";
     for (std::size_t r = 0; r < run.trace.rows(); ++r)
@@ -110,7 +111,8 @@ void write_equilibration(OutputFolder& folder, const EndPointRunResult& run, con
 EndPoints make_end_points(const LennardJonesModel& model, const Configuration& start, const EndPointOptions& options, Isa isa,
                           OutputFolder& folder, const CommonOptions& common) {
   TerminalMonitor monitor(common.quiet);
-  EndPoints result{run_end_points(model, start, options, isa, {folder.checkpoints(), !common.resume.empty()}, monitor), Json::object(), false};
+  EndPoints result{run_end_points(model, start, options, isa, {folder.checkpoints(), !common.resume.empty()}, monitor),
+                   Json::object(), false};
   const EndPointRunResult& run = result.run;
   result.json["pairs"] = Json::array();
   for (std::size_t k = 0; k < run.pairs.size(); ++k) {

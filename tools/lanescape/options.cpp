@@ -4,6 +4,8 @@
 #include <iostream>
 
 #include "core/error.hpp"
+#include "interaction/lennard_jones.hpp"
+#include "io/extended_xyz.hpp"
 #include "io/model_file.hpp"
 #include "program.hpp"
 
@@ -48,13 +50,31 @@ LennardJonesModel SystemOptions::resolve() const {
   return resolved;
 }
 
+void check_separations_in(const std::string& file, const Configuration& configuration, const LennardJonesModel& model) {
+  try {
+    check_separations(configuration, model);
+  } catch (const Error& error) {
+    throw Error(error.code(), fmt::format("{}: {}", file, error.what()));
+  }
+}
+
+Configuration read_first_frame(const std::string& file, const LennardJonesModel& model) {
+  ExtendedXyzReader reader(file, model);
+  Configuration first = reader.next()->configuration;
+  // A count that does not match its lines shows in the frames that follow.
+  while (reader.next()) {
+  }
+  check_separations_in(file, first, model);
+  return first;
+}
+
 OutputFolder open_folder(const CommonOptions& common) {
   if (!common.resume.empty()) return OutputFolder(common.resume, true);
   return common.out.empty() ? OutputFolder() : OutputFolder(common.out, false);
 }
 
-void write_result(OutputFolder& folder, const std::string& subcommand, const Options& options, const Json& result) {
-  folder.write_run_file(subcommand, options.resolved());
+void write_result(OutputFolder& folder, const std::string& subcommand, const toml::table& resolved, const Json& result) {
+  folder.write_run_file(subcommand, resolved);
   folder.write("result.json", [&](std::ostream& out) { out << result.dump(2) << '\n'; });
   folder.keep();
 }

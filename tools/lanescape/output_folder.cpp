@@ -41,7 +41,8 @@ OutputFolder::~OutputFolder() {
 
 void OutputFolder::write_run_file(const std::string& subcommand, const toml::table& resolved) {
   write("run.toml", [&](std::ostream& out) {
-    out << "# The options this run was made with; lanescape " << subcommand << " --config run.toml repeats it.\n" << resolved << '\n';
+    out << "# The options this run was made with; lanescape " << subcommand << " --config run.toml repeats it.\n"
+        << resolved << '\n';
   });
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
+#include <toml++/toml.h>
 #include <filesystem>
 #include <functional>
 #include <ostream>
 #include <string>
-#include <toml++/toml.h>
 #include <vector>
 
 namespace lanescape::program {

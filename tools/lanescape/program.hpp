@@ -1,6 +1,8 @@
 #pragma once
 
+#include <toml++/toml.h>
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -8,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <toml++/toml.h>
+#include <type_traits>
 #include <vector>
 
 #include "configuration/configuration.hpp"
@@ -33,7 +35,11 @@ class Options {
   template <class T>
   CLI::Option* add(const std::string& name, T& value, const std::string& description) {
     writers_.push_back([key = name.substr(2), &value](toml::table& table) { write(table, key, value); });
-    return app_->add_option(name, value, description)->capture_default_str();
+    CLI::Option* option = app_->add_option(name, value, description)->capture_default_str();
+    // CLI11 2.1 takes an empty text for no value or zero, and brings counts that are negative or too large into range.
+    if constexpr (std::is_same_v<T, std::uint64_t> || std::is_same_v<T, std::optional<std::uint64_t>>) option->check(&count_fault);
+    if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>) option->check(&number_fault);
+    return option;
   }
   // FILE or FILES, under the same name in small letters in the run file.
   template <class T>
@@ -53,9 +59,20 @@ class Options {
   CLI::App& app() { return *app_; }
 
  private:
+  // What is wrong with the text of a number; empty where nothing is, as CLI11 wants it.
+  static std::string count_fault(const std::string& text) {
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool sound = error == std::errc() && end == text.data() + text.size();
+    return sound ? "" : "'" + text + "' is not allowed: a whole number from 0 to 18446744073709551615 is needed";
+  }
+  static std::string number_fault(const std::string& text) { return text.empty() ? "'' is not allowed: a number is needed" : ""; }
+
   static void write(toml::table& table, const std::string& key, bool value) { table.insert_or_assign(key, value); }
   static void write(toml::table& table, const std::string& key, double value) { table.insert_or_assign(key, value); }
-  static void write(toml::table& table, const std::string& key, int value) { table.insert_or_assign(key, static_cast<std::int64_t>(value)); }
+  static void write(toml::table& table, const std::string& key, int value) {
+    table.insert_or_assign(key, static_cast<std::int64_t>(value));
+  }
   static void write(toml::table& table, const std::string& key, std::uint64_t value) {
     // TOML's integers have a sign; a text is read back just the same.
     if (value <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
@@ -106,6 +123,11 @@ struct SystemOptions {
   LennardJonesModel resolve() const;
 };
 
+// The first frame of a file, all of which must be sound, without overlaps; throws Error(bad_input) naming the file.
+Configuration read_first_frame(const std::string& file, const LennardJonesModel& model);
+// check_separations() of interaction/ with the file's name before what it says.
+void check_separations_in(const std::string& file, const Configuration& configuration, const LennardJonesModel& model);
+
 // Runs of the program: one subcommand each. `run` computes, returns the JSON for stdout and sets the exit status.
 struct Subcommand {
   CLI::App* app;
@@ -138,7 +160,7 @@ void install_signal_handlers();
 OutputFolder open_folder(const CommonOptions& common);
 
 // The last act of a run: result.json and the resolved run file, where there is a folder, which is kept from here on.
-void write_result(OutputFolder& folder, const std::string& subcommand, const Options& options, const Json& result);
+void write_result(OutputFolder& folder, const std::string& subcommand, const toml::table& resolved, const Json& result);
 
 // A line on stderr unless --quiet.
 void say(const CommonOptions& common, const std::string& line);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 
 #include "core/error.hpp"
 
@@ -59,7 +60,13 @@ std::vector<std::string> with_run_file(const std::vector<std::string>& arguments
   } catch (const CLI::RequiredError&) {
     // The run file may have what is missing.
   }
-  if (program.get_subcommands().empty()) return arguments;  // CLI11 knows what to say
+  if (program.get_subcommands().empty()) {
+    std::string names;
+    for (const CLI::App* app : program.get_subcommands([](const CLI::App*) { return true; }))
+      names += (names.empty() ? "" : ", ") + app->get_name();
+    throw_bad_input(
+        fmt::format("'{}' is no subcommand: {} are allowed (see --help)", arguments.empty() ? "" : arguments.front(), names));
+  }
   const CLI::App& subcommand = *program.get_subcommands().front();
   const auto given = [&](const char* name) { return subcommand.get_option(name)->count() > 0; };
   const bool resume = given("--resume");
@@ -69,6 +76,8 @@ std::vector<std::string> with_run_file(const std::vector<std::string>& arguments
   if (resume) refuse_options_besides_resume(subcommand);
 
   toml::table table;
+  // A folder would be read as an empty file.
+  if (std::filesystem::is_directory(file)) throw_bad_input(fmt::format("{}: it is a folder: a run file (TOML) is needed", file));
   try {
     table = toml::parse_file(file);
   } catch (const toml::parse_error& error) {

@@ -1,0 +1,51 @@
+// Two particles 1.5 sigma apart, by the installed library and by hand.
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <lanescape/lanescape.hpp>
+#include <string>
+#include <vector>
+
+namespace {
+
+bool close(double a, double b) { return std::abs(a - b) <= 1e-13 * std::abs(b); }
+
+bool gives_the_pair_potential(const std::string& isa) {
+  lanescape::LennardJonesPotential::Options options;
+  options.model = "lennard-jones";
+  options.truncation = "plain";
+  options.isa = isa;
+  const std::vector<int> species = {0, 0};
+  const std::vector<double> positions = {9.5, 1.0, 2.0, 1.0, 1.0, 2.0};  // across a face of the box
+  std::vector<double> forces(positions.size());
+  double virial = 0.0;
+  lanescape::LennardJonesPotential potential(species, {10.0, 10.0, 10.0}, options);
+  const double energy = potential.energy_and_forces(positions, forces, &virial);
+
+  const double sixth = std::pow(1.5, -6.0);
+  const double attraction = 24.0 * (2.0 * sixth - 1.0) * sixth / 1.5;  // -u'(r), negative here
+  return close(energy, 4.0 * (sixth - 1.0) * sixth) && energy == potential.energy(positions) && close(virial, 1.5 * attraction) &&
+         close(forces[0], -attraction) && close(forces[3], attraction) && forces[1] == 0.0 && forces[5] == 0.0;
+}
+
+bool refuses_what_it_does_not_know() {
+  lanescape::LennardJonesPotential::Options options;
+  options.isa = "abacus";
+  try {
+    lanescape::LennardJonesPotential potential(std::vector<int>{0}, {10.0, 10.0, 10.0}, options);
+  } catch (const std::exception& error) {
+    return std::string(error.what()).find("abacus") != std::string::npos;
+  }
+  return false;
+}
+
+}  // namespace
+
+int main() {
+  bool good = std::string(lanescape::version()) == LANESCAPE_VERSION && refuses_what_it_does_not_know();
+  for (const std::string& isa : lanescape::instruction_sets()) good = gives_the_pair_potential(isa) && good;
+  std::printf("lanescape %s\n", lanescape::version());
+  return good ? 0 : 1;
+}

@@ -1,0 +1,11 @@
+#!/bin/sh
+# run.sh PRESET: builds the preset and runs the fast tests in it; 77 where its compiler is not installed.
+set -eu
+preset="$1"
+if [ "$preset" = tsan ] && ! { command -v clang++-19 && [ -e /usr/lib/llvm-19/lib/libomp.so ]; } >/dev/null; then
+  echo "skipped: clang 19 with its OpenMP is not installed (Debian: clang-19 libomp-19-dev libclang-rt-19-dev)"
+  exit 77
+fi
+cmake --preset "$preset" -DLANESCAPE_BUILD_BENCHMARKS=OFF
+cmake --build --preset "$preset"
+ctest --preset "$preset"
