@@ -63,9 +63,7 @@ struct EdgeLimits {
   bool same_species;
 };
 
-LANESCAPE_INLINE Vector squared_length(const Displacement& d) {
-  return multiply_add(d.z, d.z, multiply_add(d.y, d.y, d.x * d.x));
-}
+LANESCAPE_INLINE Vector squared_length(const Displacement& d) { return multiply_add(d.z, d.z, multiply_add(d.y, d.y, d.x * d.x)); }
 
 // Adds one vector of pairs, given 1/r^2 (zero out of range), to the power sums; returns -u'(r)/r.
 LANESCAPE_INLINE Vector interact(const Potential& u, Vector inverse, Mask in_range, PowerSums& sums) {
@@ -111,8 +109,7 @@ LANESCAPE_INLINE Displacement next_image(const Displacement& d, const Box& box, 
     const Vector gx = growth(l.x, ax), gy = growth(l.y, ay), gz = growth(l.z, az);
     const Vector least = minimum(gx, minimum(gy, gz));
     r2 = r2 + least;
-    return {choose(less(least, gx), d.x, d.x - with_sign_of(l.x, d.x)),
-            choose(less(least, gy), d.y, d.y - with_sign_of(l.y, d.y)),
+    return {choose(less(least, gx), d.x, d.x - with_sign_of(l.x, d.x)), choose(less(least, gy), d.y, d.y - with_sign_of(l.y, d.y)),
             choose(less(least, gz), d.z, d.z - with_sign_of(l.z, d.z))};
   }
 }
@@ -120,9 +117,8 @@ LANESCAPE_INLINE Displacement next_image(const Displacement& d, const Box& box, 
 // Calls body(0) ... body(count - 1) with the number as a constant, so that arrays indexed by it become registers.
 template <std::size_t count, class Body>
 LANESCAPE_INLINE void unrolled(Body body) {
-  [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) {
-    (body(std::integral_constant<std::size_t, k>{}), ...);
-  }(std::make_index_sequence<count>{});
+  [&]<std::size_t... k>(std::index_sequence<k...>)
+      __attribute__((always_inline)) { (body(std::integral_constant<std::size_t, k>{}), ...); }(std::make_index_sequence<count>{});
 }
 
 // One vector of pairs in all its images within range.
@@ -159,7 +155,9 @@ LANESCAPE_INLINE void pair_vector(const Displacement& nearest, const Box& box, c
 }
 
 LANESCAPE_INLINE Mask valid_in_row(const EdgeLimits& limits, std::size_t column, std::size_t row) {
-  const auto before = [&](std::size_t n) { return lanes_below(static_cast<std::ptrdiff_t>(n) - static_cast<std::ptrdiff_t>(column)); };
+  const auto before = [&](std::size_t n) {
+    return lanes_below(static_cast<std::ptrdiff_t>(n) - static_cast<std::ptrdiff_t>(column));
+  };
   if (row >= limits.row_count) return lanes_below(0);
   return limits.same_species ? excluding(before(limits.column_count), before(row + 1)) : before(limits.column_count);
 }
@@ -193,12 +191,12 @@ LANESCAPE_INLINE void column_loop(std::size_t first, std::size_t last, const Edg
 }
 
 template <ImageSearch images, Output output, LengthUnit unit>
-LANESCAPE_INLINE void tile_against_block(const LjInput& in, const SpeciesBlock& block, const EdgeLimits& limits, double* gradient, const Box& box,
-                                         const Potential& u, RowTile& rows, Totals& totals) {
+LANESCAPE_INLINE void tile_against_block(const LjInput& in, const SpeciesBlock& block, const EdgeLimits& limits, double* gradient,
+                                         const Box& box, const Potential& u, RowTile& rows, Totals& totals) {
   PowerSums sums;
   const auto loop = [&]<Masking masking>(std::size_t first, std::size_t last) __attribute__((always_inline)) {
     column_loop<images, output, unit, masking>(first, last, limits, in.scratch + block.begin, gradient + block.begin, in.slots, box,
-                                                u, rows, sums, totals);
+                                               u, rows, sums, totals);
   };
   const std::size_t padded = (block.count + lanes - 1) / lanes * lanes;
   const std::size_t whole = block.count / lanes * lanes;
@@ -213,7 +211,7 @@ LANESCAPE_INLINE void tile_against_block(const LjInput& in, const SpeciesBlock& 
 }
 
 Potential broadcast_potential(const LjPair& p) {
-  return {broadcast(p.c12),        broadcast(p.c6),  broadcast(12.0 * p.c12), broadcast(6.0 * p.c6), broadcast(p.cutoff_squared),
+  return {broadcast(p.c12),  broadcast(p.c6), broadcast(12.0 * p.c12), broadcast(6.0 * p.c6), broadcast(p.cutoff_squared),
           broadcast(p.shift)};
 }
 

@@ -57,17 +57,31 @@ inline Vector lanewise(F f) noexcept {
   for (std::size_t k = 0; k < lanes; ++k) r.lane[k] = f(k);
   return r;
 }
-inline Vector operator+(Vector a, Vector b) noexcept { return lanewise([&](std::size_t k) { return a.lane[k] + b.lane[k]; }); }
-inline Vector operator-(Vector a, Vector b) noexcept { return lanewise([&](std::size_t k) { return a.lane[k] - b.lane[k]; }); }
-inline Vector operator*(Vector a, Vector b) noexcept { return lanewise([&](std::size_t k) { return a.lane[k] * b.lane[k]; }); }
-inline Vector operator/(Vector a, Vector b) noexcept { return lanewise([&](std::size_t k) { return a.lane[k] / b.lane[k]; }); }
+inline Vector operator+(Vector a, Vector b) noexcept {
+  return lanewise([&](std::size_t k) { return a.lane[k] + b.lane[k]; });
+}
+inline Vector operator-(Vector a, Vector b) noexcept {
+  return lanewise([&](std::size_t k) { return a.lane[k] - b.lane[k]; });
+}
+inline Vector operator*(Vector a, Vector b) noexcept {
+  return lanewise([&](std::size_t k) { return a.lane[k] * b.lane[k]; });
+}
+inline Vector operator/(Vector a, Vector b) noexcept {
+  return lanewise([&](std::size_t k) { return a.lane[k] / b.lane[k]; });
+}
 inline Vector& operator+=(Vector& a, Vector b) noexcept { return a = a + b; }
-inline Vector load(const double* p) noexcept { return lanewise([&](std::size_t k) { return p[k]; }); }
+inline Vector load(const double* p) noexcept {
+  return lanewise([&](std::size_t k) { return p[k]; });
+}
 inline void store(double* p, Vector v) noexcept {
   for (std::size_t k = 0; k < lanes; ++k) p[k] = v.lane[k];
 }
-inline Vector broadcast(double s) noexcept { return lanewise([&](std::size_t) { return s; }); }
-inline Vector absolute(Vector v) noexcept { return lanewise([&](std::size_t k) { return std::fabs(v.lane[k]); }); }
+inline Vector broadcast(double s) noexcept {
+  return lanewise([&](std::size_t) { return s; });
+}
+inline Vector absolute(Vector v) noexcept {
+  return lanewise([&](std::size_t k) { return std::fabs(v.lane[k]); });
+}
 inline Vector maximum(Vector a, Vector b) noexcept {
   return lanewise([&](std::size_t k) { return a.lane[k] < b.lane[k] ? b.lane[k] : a.lane[k]; });
 }
@@ -80,8 +94,12 @@ inline Mask lanewise_mask(F f) noexcept {
   for (std::size_t k = 0; k < lanes; ++k) r.lane[k] = f(k);
   return r;
 }
-inline Mask less(Vector a, Vector b) noexcept { return lanewise_mask([&](std::size_t k) { return a.lane[k] < b.lane[k]; }); }
-inline Mask both(Mask a, Mask b) noexcept { return lanewise_mask([&](std::size_t k) { return a.lane[k] && b.lane[k]; }); }
+inline Mask less(Vector a, Vector b) noexcept {
+  return lanewise_mask([&](std::size_t k) { return a.lane[k] < b.lane[k]; });
+}
+inline Mask both(Mask a, Mask b) noexcept {
+  return lanewise_mask([&](std::size_t k) { return a.lane[k] && b.lane[k]; });
+}
 inline bool any(Mask m) noexcept {
   bool r = false;
   for (std::size_t k = 0; k < lanes; ++k) r = r || m.lane[k];

@@ -31,10 +31,10 @@ enum class LengthUnit : std::uint32_t { box, sigma };
 
 // u(r) = c12 r^-12 - c6 r^-6 - shift for r^2 < cutoff_squared, else 0; r in LjInput::unit.
 struct LjPair {
-  double c12;             // 4 eps s^12
-  double c6;              // 4 eps s^6
+  double c12;  // 4 eps s^12
+  double c6;   // 4 eps s^6
   double cutoff_squared;
-  double shift;           // [epsilon]
+  double shift;  // [epsilon]
   ImageSearch images;
 };
 
@@ -44,10 +44,10 @@ struct LjInput {
   std::size_t slots;        // a multiple of slot_padding
   const SpeciesBlock* blocks;
   std::size_t block_count;
-  const LjPair* pairs;      // block_count x block_count, symmetric
-  LengthUnit unit;          // box: needs a cubic box and no ImageSearch::lattice
-  double box[3];            // edge lengths [sigma]
-  std::int32_t shells[3];   // largest image shift per axis, for ImageSearch::lattice
+  const LjPair* pairs;     // block_count x block_count, symmetric
+  LengthUnit unit;         // box: needs a cubic box and no ImageSearch::lattice
+  double box[3];           // edge lengths [sigma]
+  std::int32_t shells[3];  // largest image shift per axis, for ImageSearch::lattice
 };
 
 struct LjOutput {

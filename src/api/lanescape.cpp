@@ -26,26 +26,31 @@ struct LennardJonesPotential::Implementation {
 
   AlignedArray to_slots(std::span<const double> positions) const {
     if (positions.size() != 3 * layout.size())
-      throw_bad_input(fmt::format("{} coordinates were given for {} particles: {} are needed", positions.size(), layout.size(), 3 * layout.size()));
+      throw_bad_input(fmt::format("{} coordinates were given for {} particles: {} are needed", positions.size(), layout.size(),
+                                  3 * layout.size()));
     return layout.to_slots(positions);
   }
 };
 
-LennardJonesPotential::LennardJonesPotential(std::span<const int> species, const std::array<double, 3>& box, const Options& options) {
+LennardJonesPotential::LennardJonesPotential(std::span<const int> species, const std::array<double, 3>& box,
+                                             const Options& options) {
   LennardJonesModel model = named_model(options.model);
   model.cutoff = options.cutoff;
   model.truncation = parse_truncation(options.truncation);
   model.images = parse_image_rule(options.images);
   model.check();
   for (const double edge : box)
-    if (!(edge > 0.0 && edge < 1e9)) throw_bad_input(fmt::format("box edge {} is not allowed: it must be finite and above 0", edge));
+    if (!(edge > 0.0 && edge < 1e9))
+      throw_bad_input(fmt::format("box edge {} is not allowed: it must be finite and above 0", edge));
   const int count = static_cast<int>(model.species.size());
   for (const int s : species)
-    if (s < 0 || s >= count) throw_bad_input(fmt::format("species {} is not allowed: model {} has 0 to {}", s, model.name, count - 1));
+    if (s < 0 || s >= count)
+      throw_bad_input(fmt::format("species {} is not allowed: model {} has 0 to {}", s, model.name, count - 1));
   ParticleLayout layout(std::vector<int>(species.begin(), species.end()), model.species.size());
   LennardJones interaction(model, Box{box}, layout, kernel_table(choose_isa(options.isa)));
   AlignedArray gradient(layout.dimension(), 0.0);
-  implementation_ = std::make_unique<Implementation>(Implementation{std::move(layout), std::move(interaction), std::move(gradient)});
+  implementation_ =
+      std::make_unique<Implementation>(Implementation{std::move(layout), std::move(interaction), std::move(gradient)});
 }
 
 LennardJonesPotential::~LennardJonesPotential() = default;

@@ -26,9 +26,12 @@ const char* to_string(ImageRule rule) { return rule == ImageRule::all ? "all" : 
 
 const char* to_string(Truncation truncation) {
   switch (truncation) {
-    case Truncation::shifted: return "shifted";
-    case Truncation::plain: return "plain";
-    case Truncation::tail: return "tail";
+    case Truncation::shifted:
+      return "shifted";
+    case Truncation::plain:
+      return "plain";
+    case Truncation::tail:
+      return "tail";
   }
   return "";
 }
@@ -54,8 +57,10 @@ void LennardJonesModel::check() const {
       throw_bad_input(fmt::format("species {}: mass {} is not allowed, it must be finite and above 0", s.name, s.mass));
     if (!(s.fraction >= 0.0 && s.fraction <= 1.0))
       throw_bad_input(fmt::format("species {}: fraction {} is not between 0 and 1", s.name, s.fraction));
-    const auto namesakes = std::count_if(species.begin(), species.end(), [&](const Species& other) { return other.name == s.name; });
-    if (s.name.empty() || namesakes != 1) throw_bad_input(fmt::format("species name '{}' must be given, and to one species only", s.name));
+    const auto namesakes =
+        std::count_if(species.begin(), species.end(), [&](const Species& other) { return other.name == s.name; });
+    if (s.name.empty() || namesakes != 1)
+      throw_bad_input(fmt::format("species name '{}' must be given, and to one species only", s.name));
   }
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t b = 0; b < n; ++b) {

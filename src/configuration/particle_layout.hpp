@@ -16,9 +16,9 @@ class ParticleLayout {
  public:
   ParticleLayout(const std::vector<int>& species, std::size_t species_count);
 
-  std::size_t size() const { return slot_of_.size(); }     // N
-  std::size_t slots() const { return slots_; }             // padded
-  std::size_t dimension() const { return 3 * slots_; }     // length of every coordinate array
+  std::size_t size() const { return slot_of_.size(); }  // N
+  std::size_t slots() const { return slots_; }          // padded
+  std::size_t dimension() const { return 3 * slots_; }  // length of every coordinate array
   const std::vector<kernels::SpeciesBlock>& blocks() const { return blocks_; }
   std::size_t slot_of(std::size_t particle) const { return slot_of_[particle]; }
 

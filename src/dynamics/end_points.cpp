@@ -20,7 +20,8 @@ void EndPointOptions::make_quick() {
 
 void EndPointOptions::check() const {
   const auto positive = [](const char* what, double value) {
-    if (!(value > 0.0) || !std::isfinite(value)) throw_bad_input(fmt::format("{} {} is not allowed: it must be finite and above 0", what, value));
+    if (!(value > 0.0) || !std::isfinite(value))
+      throw_bad_input(fmt::format("{} {} is not allowed: it must be finite and above 0", what, value));
   };
   positive("temperature", temperature);
   positive("melting temperature", melt_temperature);
@@ -33,7 +34,8 @@ void EndPointOptions::check() const {
   at_least_one("number of pairs", pairs);
   at_least_one("rescale interval", rescale_interval);
   at_least_one("check interval", check_interval);
-  if (time_step > 0.02) throw_bad_input(fmt::format("time step {} is not allowed: at most 0.02, or energy is not conserved", time_step));
+  if (time_step > 0.02)
+    throw_bad_input(fmt::format("time step {} is not allowed: at most 0.02, or energy is not conserved", time_step));
   if (check_steps < check_interval)
     throw_bad_input(fmt::format("check steps {} must be at least the check interval {}", check_steps, check_interval));
 }
@@ -45,8 +47,8 @@ void EndPointPair::exchange(Archive& archive) {
   archive.field("steps", steps);
 }
 
-double end_point_distance(const AlignedArray& a, const AlignedArray& b, const ParticleLayout& layout, const std::vector<double>& masses,
-                          std::optional<int> species) {
+double end_point_distance(const AlignedArray& a, const AlignedArray& b, const ParticleLayout& layout,
+                          const std::vector<double>& masses, std::optional<int> species) {
   std::array<double, 3> drift{};
   double mass = 0.0;
   const auto for_each_block = [&](auto action) {
@@ -55,7 +57,8 @@ double end_point_distance(const AlignedArray& a, const AlignedArray& b, const Pa
   for_each_block([&](std::size_t s, const kernels::SpeciesBlock& block) {
     mass += masses[s] * static_cast<double>(block.count);
     for (std::size_t axis = 0; axis < 3; ++axis)
-      for (std::size_t k = axis * layout.slots() + block.begin, end = k + block.count; k < end; ++k) drift[axis] += masses[s] * (b[k] - a[k]);
+      for (std::size_t k = axis * layout.slots() + block.begin, end = k + block.count; k < end; ++k)
+        drift[axis] += masses[s] * (b[k] - a[k]);
   });
   double squared = 0.0;
   for_each_block([&](std::size_t s, const kernels::SpeciesBlock& block) {
@@ -71,7 +74,10 @@ double end_point_distance(const AlignedArray& a, const AlignedArray& b, const Pa
 
 EndPointGenerator::EndPointGenerator(SoftLandscape& landscape, const LennardJonesModel& model, const ParticleLayout& layout,
                                      AlignedArray start, const EndPointOptions& options)
-    : landscape_(&landscape), layout_(&layout), options_(options), verlet_(landscape, model, layout, std::move(start), options.time_step) {
+    : landscape_(&landscape),
+      layout_(&layout),
+      options_(options),
+      verlet_(landscape, model, layout, std::move(start), options.time_step) {
   options_.check();
   for (const Species& s : model.species) masses_.push_back(s.mass);
   verlet_.draw_velocities(options_.melt_temperature, options_.seed);
@@ -79,32 +85,48 @@ EndPointGenerator::EndPointGenerator(SoftLandscape& landscape, const LennardJone
 
 const char* EndPointGenerator::name(Phase phase) {
   switch (phase) {
-    case Phase::melt: return "melting";
-    case Phase::cool: return "cooling";
-    case Phase::check: return "temperature check";
-    case Phase::settle: return "settling";
-    case Phase::pair: return "towards the far end point";
-    case Phase::between: return "between pairs";
-    case Phase::done: return "done";
-    case Phase::temperature_not_held: return "temperature not held";
-    case Phase::distance_not_reached: return "distance not reached";
+    case Phase::melt:
+      return "melting";
+    case Phase::cool:
+      return "cooling";
+    case Phase::check:
+      return "temperature check";
+    case Phase::settle:
+      return "settling";
+    case Phase::pair:
+      return "towards the far end point";
+    case Phase::between:
+      return "between pairs";
+    case Phase::done:
+      return "done";
+    case Phase::temperature_not_held:
+      return "temperature not held";
+    case Phase::distance_not_reached:
+      return "distance not reached";
   }
   return "";
 }
 
 std::uint64_t EndPointGenerator::phase_total() const {
   switch (phase_) {
-    case Phase::melt: return options_.melt_steps;
-    case Phase::cool: return options_.cooling_steps;
-    case Phase::check: return options_.check_steps;
-    case Phase::settle: return options_.settle_steps;
-    case Phase::between: return options_.between_steps;
-    default: return 0;
+    case Phase::melt:
+      return options_.melt_steps;
+    case Phase::cool:
+      return options_.cooling_steps;
+    case Phase::check:
+      return options_.check_steps;
+    case Phase::settle:
+      return options_.settle_steps;
+    case Phase::between:
+      return options_.between_steps;
+    default:
+      return 0;
   }
 }
 
 double EndPointGenerator::distance_so_far() const {
-  return phase_ == Phase::pair ? end_point_distance(pair_start_, verlet_.position(), *layout_, masses_, options_.distance_species) : 0.0;
+  return phase_ == Phase::pair ? end_point_distance(pair_start_, verlet_.position(), *layout_, masses_, options_.distance_species)
+                               : 0.0;
 }
 
 void EndPointGenerator::enter(Phase phase) {
@@ -138,7 +160,8 @@ void EndPointGenerator::step() {
   verlet_.step();
   const std::uint64_t done = phase_done();
   if (phase_ == Phase::melt || phase_ == Phase::cool) {
-    if (done % options_.rescale_interval == 0) verlet_.rescale_to(phase_ == Phase::melt ? options_.melt_temperature : options_.temperature);
+    if (done % options_.rescale_interval == 0)
+      verlet_.rescale_to(phase_ == Phase::melt ? options_.melt_temperature : options_.temperature);
     if (done >= phase_total()) enter(phase_ == Phase::melt ? Phase::cool : Phase::check);
     return;
   }

@@ -13,21 +13,21 @@ namespace lanescape {
 // The source's protocol ([G] 3.1.2.2): melt hot, cool, check that the temperature holds without a thermostat, settle, then
 // collect pairs of configurations a given distance apart. Counts are molecular dynamics steps.
 struct EndPointOptions {
-  double temperature = 1.0;              // [epsilon/k_B]
-  double distance = 0.0;                 // DeltaR between the ends of a pair [sigma]
-  std::optional<int> distance_species;   // count only this species' motion towards the distance
+  double temperature = 1.0;             // [epsilon/k_B]
+  double distance = 0.0;                // DeltaR between the ends of a pair [sigma]
+  std::optional<int> distance_species;  // count only this species' motion towards the distance
   std::uint64_t pairs = 1;
-  double time_step = 0.001;              // [sigma sqrt(m/epsilon)]
+  double time_step = 0.001;  // [sigma sqrt(m/epsilon)]
   double melt_temperature = 5.0;
   std::uint64_t melt_steps = 200'000;
   std::uint64_t cooling_steps = 1'000'000;
   std::uint64_t rescale_interval = 1'000;  // while melting and cooling
   std::uint64_t check_steps = 1'000'000;
-  std::uint64_t check_interval = 100;      // steps between temperature samples of the check
-  double check_tolerance = 0.005;          // |<T> - T|; otherwise rescale and check again
+  std::uint64_t check_interval = 100;  // steps between temperature samples of the check
+  double check_tolerance = 0.005;      // |<T> - T|; otherwise rescale and check again
   std::uint64_t max_checks = 100;
   std::uint64_t settle_steps = 1'000'000;
-  std::uint64_t between_steps = 100'000;   // between pairs
+  std::uint64_t between_steps = 100'000;  // between pairs
   std::uint64_t max_pair_steps = 1'000'000'000;
   std::uint64_t seed = 1;
 
@@ -40,8 +40,8 @@ struct EndPointOptions {
 // Two configurations of one trajectory, unwrapped, in the layout's order.
 struct EndPointPair {
   AlignedArray start, finish;
-  double distance = 0.0;       // |R_f - R_i| without the motion of the centre of mass [sigma]
-  std::uint64_t steps = 0;     // from one end to the other
+  double distance = 0.0;    // |R_f - R_i| without the motion of the centre of mass [sigma]
+  std::uint64_t steps = 0;  // from one end to the other
   void exchange(Archive& archive);
 };
 
@@ -67,7 +67,9 @@ class EndPointGenerator {
   const std::vector<EndPointPair>& pairs() const { return pairs_; }
   // Mean temperature of the last check, and since the check was passed.
   double checked_temperature() const { return checked_temperature_; }
-  double mean_temperature() const { return mean_samples_ == 0 ? checked_temperature_ : mean_sum_ / static_cast<double>(mean_samples_); }
+  double mean_temperature() const {
+    return mean_samples_ == 0 ? checked_temperature_ : mean_sum_ / static_cast<double>(mean_samples_);
+  }
   double distance_so_far() const;
 
   void exchange(Archive& archive);
@@ -90,7 +92,7 @@ class EndPointGenerator {
 };
 
 // |b - a| over all particles, or those of one species, less the motion of the centre of mass [sigma].
-double end_point_distance(const AlignedArray& a, const AlignedArray& b, const ParticleLayout& layout, const std::vector<double>& masses,
-                          std::optional<int> species);
+double end_point_distance(const AlignedArray& a, const AlignedArray& b, const ParticleLayout& layout,
+                          const std::vector<double>& masses, std::optional<int> species);
 
 }  // namespace lanescape

@@ -39,8 +39,9 @@ void VelocityVerlet::draw_velocities(double temperature, std::uint64_t seed) {
     const auto& block = layout_->blocks()[s];
     for (std::size_t k = block.begin; k < block.begin + block.count; ++k, ++particle)
       for (std::size_t axis = 0; axis < 3; ++axis)
-        velocity_[axis * layout_->slots() + k] = std::sqrt(temperature / masses_[s]) *
-                                                 random.normal(0, static_cast<std::uint32_t>(particle), static_cast<std::uint32_t>(axis));
+        velocity_[axis * layout_->slots() + k] =
+            std::sqrt(temperature / masses_[s]) *
+            random.normal(0, static_cast<std::uint32_t>(particle), static_cast<std::uint32_t>(axis));
   }
   rescale_to(temperature);
 }
@@ -51,7 +52,8 @@ void VelocityVerlet::remove_momentum() {
     const auto for_each = [&](auto action) {
       for (std::size_t s = 0; s < layout_->blocks().size(); ++s) {
         const auto& block = layout_->blocks()[s];
-        for (std::size_t k = block.begin; k < block.begin + block.count; ++k) action(velocity_[axis * layout_->slots() + k], masses_[s]);
+        for (std::size_t k = block.begin; k < block.begin + block.count; ++k)
+          action(velocity_[axis * layout_->slots() + k], masses_[s]);
       }
     };
     for_each([&](double v, double m) {

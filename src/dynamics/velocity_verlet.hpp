@@ -15,8 +15,8 @@ namespace lanescape {
 class VelocityVerlet {
  public:
   // Starts at rest. `landscape` and `layout` must outlive this object.
-  VelocityVerlet(SoftLandscape& landscape, const LennardJonesModel& model, const ParticleLayout& layout,
-                 AlignedArray position, double time_step);
+  VelocityVerlet(SoftLandscape& landscape, const LennardJonesModel& model, const ParticleLayout& layout, AlignedArray position,
+                 double time_step);
 
   // Velocities from Maxwell's distribution, total momentum removed, then scaled to the temperature exactly.
   void draw_velocities(double temperature, std::uint64_t seed);
@@ -24,8 +24,8 @@ class VelocityVerlet {
   void rescale_to(double temperature);
   void step();
 
-  double temperature() const;       // 2 K / (3 N)
-  double kinetic_energy() const;    // [epsilon]
+  double temperature() const;     // 2 K / (3 N)
+  double kinetic_energy() const;  // [epsilon]
   double potential_energy() const { return potential_; }
   std::uint64_t steps() const { return steps_; }
   double time_step() const { return time_step_; }

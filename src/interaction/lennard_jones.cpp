@@ -57,8 +57,8 @@ void check_separations(const Configuration& configuration, const LennardJonesMod
       }
     }
   if (worst < allowed)
-    throw_bad_input(fmt::format("particles {} and {} overlap: their distance is {:.6g} sigma, at least {} is needed", worst_i, worst_j,
-                                worst, allowed));
+    throw_bad_input(fmt::format("particles {} and {} overlap: their distance is {:.6g} sigma, at least {} is needed", worst_i,
+                                worst_j, worst, allowed));
 }
 
 LennardJones::LennardJones(const LennardJonesModel& model, const Box& box, const ParticleLayout& layout,
@@ -71,8 +71,9 @@ LennardJones::LennardJones(const LennardJonesModel& model, const Box& box, const
       const double sigma = model.sigma[model.pair(a, b)], epsilon = model.epsilon[model.pair(a, b)];
       const double cutoff = model.cutoff * sigma;
       if (model.images == ImageRule::all && shells(box.shortest(), cutoff) > max_image_shells)
-        throw_bad_input(fmt::format("cutoff {} reaches over more than {} images of the box, whose shortest edge is {}: at most {} is allowed",
-                                    cutoff, max_image_shells, box.shortest(), (max_image_shells + 0.5) * box.shortest()));
+        throw_bad_input(
+            fmt::format("cutoff {} reaches over more than {} images of the box, whose shortest edge is {}: at most {} is allowed",
+                        cutoff, max_image_shells, box.shortest(), (max_image_shells + 0.5) * box.shortest()));
       const double s6 = std::pow(sigma, 6), c12 = 4.0 * epsilon * s6 * s6, c6 = 4.0 * epsilon * s6;
       const double inverse6 = std::pow(cutoff, -6);
       const double shift = model.truncation == Truncation::shifted ? (c12 * inverse6 - c6) * inverse6 : 0.0;

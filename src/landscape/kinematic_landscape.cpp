@@ -23,7 +23,8 @@ double KinematicLandscape::energy_and_gradient(const AlignedArray& q, AlignedArr
 
 AlignedArray kinematic_scale(const LennardJonesModel& model, const ParticleLayout& layout) {
   double total = 0.0;
-  for (std::size_t s = 0; s < layout.blocks().size(); ++s) total += model.species[s].mass * static_cast<double>(layout.blocks()[s].count);
+  for (std::size_t s = 0; s < layout.blocks().size(); ++s)
+    total += model.species[s].mass * static_cast<double>(layout.blocks()[s].count);
   const double mean = total / static_cast<double>(layout.size());
   AlignedArray scale(layout.dimension(), 1.0);
   for (std::size_t s = 0; s < layout.blocks().size(); ++s)

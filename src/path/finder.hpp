@@ -19,11 +19,16 @@ enum class Outcome : std::uint64_t { running, reached, step_limit, stalled, inte
 
 inline const char* to_string(Outcome outcome) {
   switch (outcome) {
-    case Outcome::running: return "running";
-    case Outcome::reached: return "reached";
-    case Outcome::step_limit: return "step_limit";
-    case Outcome::stalled: return "stalled";
-    case Outcome::interrupted: return "interrupted";
+    case Outcome::running:
+      return "running";
+    case Outcome::reached:
+      return "reached";
+    case Outcome::step_limit:
+      return "step_limit";
+    case Outcome::stalled:
+      return "stalled";
+    case Outcome::interrupted:
+      return "interrupted";
   }
   return "";
 }
@@ -97,7 +102,8 @@ class PathFinder {
       return end(Outcome::stalled,
                  fmt::format("no progress over {} steps, at a distance of {:.6g} from the goal", options_.patience, at.distance));
     const auto kind = stepper_.step(at, next_);
-    if (!kind) return end(Outcome::stalled, fmt::format("{}, at a distance of {:.6g} from the goal", stepper_.failure(), at.distance));
+    if (!kind)
+      return end(Outcome::stalled, fmt::format("{}, at a distance of {:.6g} from the goal", stepper_.failure(), at.distance));
     ++(*kind == StepKind::direct ? direct_steps_ : detour_steps_);
     statistics_.add(algebra_->displacement_moments(position_, next_));
     largest_violation_ = std::max(largest_violation_, stepper_.energy() - landscape_energy_);

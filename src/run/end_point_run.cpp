@@ -37,15 +37,16 @@ void one_step(EndPointState& state, std::size_t particles) {
   const VelocityVerlet& verlet = state.generator.verlet();
   if (state.trace.wants(verlet.steps())) {
     const double n = static_cast<double>(particles), potential = verlet.potential_energy();
-    state.trace.add({static_cast<double>(verlet.steps()), verlet.temperature(), potential / n, (potential + verlet.kinetic_energy()) / n,
-                     static_cast<double>(state.generator.phase())});
+    state.trace.add({static_cast<double>(verlet.steps()), verlet.temperature(), potential / n,
+                     (potential + verlet.kinetic_energy()) / n, static_cast<double>(state.generator.phase())});
   }
   if (state.generator.equilibrated() && verlet.steps() % rdf_interval == 0) state.radial_distribution.add(verlet.position());
 }
 
 void report(const EndPointGenerator& generator, const EndPointOptions& options, RunMonitor& monitor) {
   if (generator.phase() == EndPointGenerator::Phase::pair)
-    monitor.progress(EndPointGenerator::name(generator.phase()), std::min(generator.distance_so_far(), options.distance), options.distance);
+    monitor.progress(EndPointGenerator::name(generator.phase()), std::min(generator.distance_so_far(), options.distance),
+                     options.distance);
   else
     monitor.progress(EndPointGenerator::name(generator.phase()), static_cast<double>(generator.phase_done()),
                      static_cast<double>(generator.phase_total()));
@@ -53,8 +54,8 @@ void report(const EndPointGenerator& generator, const EndPointOptions& options, 
 
 }  // namespace
 
-EndPointRunResult run_end_points(const LennardJonesModel& model, const Configuration& start, const EndPointOptions& options, Isa isa,
-                                 const CheckpointOptions& checkpoint, RunMonitor& monitor) {
+EndPointRunResult run_end_points(const LennardJonesModel& model, const Configuration& start, const EndPointOptions& options,
+                                 Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor) {
   check_separations(start, model);
   const ParticleLayout layout(start.species, model.species.size());
   LennardJonesLandscape landscape(model, start.box, layout, isa);
@@ -87,8 +88,9 @@ EndPointRunResult run_end_points(const LennardJonesModel& model, const Configura
   }
   if (checkpoint.enabled() && state.generator.ended() && !was_ended) save_checkpoint(file, state);
 
-  EndPointRunResult result{state.generator.phase(), interrupted, {}, state.pair_seconds, state.generator.mean_temperature(),
-                           state.seconds,           state.trace, state.radial_distribution};
+  EndPointRunResult result{
+      state.generator.phase(),  interrupted, {}, state.pair_seconds, state.generator.mean_temperature(), state.seconds, state.trace,
+      state.radial_distribution};
   for (const EndPointPair& pair : state.generator.pairs())
     result.pairs.push_back({{start.box, start.species, layout.to_user(pair.start)},
                             {start.box, start.species, layout.to_user(pair.finish)},

@@ -26,15 +26,15 @@ struct EndPointRunResult {
   bool interrupted = false;
   std::vector<ConfigurationPair> pairs;
   std::vector<double> pair_seconds;  // computing time since the pair before, equilibration included
-  double temperature = 0.0;  // mean since equilibrium, 3N convention
+  double temperature = 0.0;          // mean since equilibrium, 3N convention
   double seconds = 0.0;
-  DecimatedTrace trace;      // step, temperature, potential energy per particle, total energy per particle, phase
+  DecimatedTrace trace;  // step, temperature, potential energy per particle, total energy per particle, phase
   RadialDistribution radial_distribution;
 };
 
 // Runs molecular dynamics from `start` to as many end-point pairs as asked for. Bit-identical for a given seed and instruction
 // set, interrupted and resumed or not. Throws Error(bad_input) for impossible options or overlapping particles.
-EndPointRunResult run_end_points(const LennardJonesModel& model, const Configuration& start, const EndPointOptions& options, Isa isa,
-                                 const CheckpointOptions& checkpoint, RunMonitor& monitor);
+EndPointRunResult run_end_points(const LennardJonesModel& model, const Configuration& start, const EndPointOptions& options,
+                                 Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor);
 
 }  // namespace lanescape

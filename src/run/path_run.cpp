@@ -45,6 +45,32 @@ std::unique_ptr<SoftLandscape> make_landscape(const LennardJonesModel& model, co
   return std::make_unique<KinematicLandscape>(std::move(landscape), metric.scale);
 }
 
+// A pair as the search sees it, all of it checked.
+struct PreparedPair {
+  ParticleLayout layout;
+  Metric metric;
+  AlignedArray start, goal;  // kinematic coordinates
+  double distance = 0.0, landscape_energy = 0.0;
+};
+
+PreparedPair prepare(const LennardJonesModel& model, const ConfigurationPair& pair, std::size_t number,
+                     const PathRunOptions& options, Isa isa) {
+  const std::string where = fmt::format("pair {}", number + 1);
+  check_end_points(pair, model, where);
+  PreparedPair prepared{ParticleLayout(pair.start.species, model.species.size()), {}, {}, {}};
+  if (!has_equal_masses(model)) prepared.metric.scale = kinematic_scale(model, prepared.layout);
+  prepared.start = prepared.metric.to_kinematic(prepared.layout.to_slots(pair.start.positions));
+  prepared.goal = prepared.metric.to_kinematic(prepared.layout.to_slots(pair.finish.positions));
+  const auto landscape = make_landscape(model, pair.start.box, prepared.layout, isa, prepared.metric);
+  const double highest_end = std::max(landscape->energy(prepared.start), landscape->energy(prepared.goal));
+  prepared.distance = landscape->algebra().distance(prepared.start, prepared.goal);
+  prepared.landscape_energy = options.landscape_energy.value_or(highest_end);
+  if (!(highest_end <= prepared.landscape_energy))
+    throw_bad_input(fmt::format("{}: an end point has energy {}, above the landscape energy {}", where, highest_end,
+                                prepared.landscape_energy));
+  return prepared;
+}
+
 // One search and the time it took, as archived.
 template <class Stepper>
 struct Search {
@@ -57,8 +83,8 @@ struct Search {
 };
 
 template <class Stepper>
-PathResult summarise(const Search<Stepper>& search, const ConfigurationPair& pair, const ParticleLayout& layout, const Metric& metric,
-                     bool reversed, bool interrupted) {
+PathResult summarise(const Search<Stepper>& search, const ConfigurationPair& pair, const PreparedPair& prepared, bool reversed,
+                     bool interrupted) {
   const auto& finder = search.finder;
   PathResult result;
   result.outcome = interrupted ? Outcome::interrupted : finder.outcome();
@@ -73,9 +99,11 @@ PathResult summarise(const Search<Stepper>& search, const ConfigurationPair& pai
   result.largest_violation = finder.largest_violation();
   result.seconds = search.seconds;
   result.trace = finder.recorder().trace();
+  result.distance = prepared.distance;
+  result.landscape_energy = prepared.landscape_energy;
   result.frames.push_back(reversed ? pair.finish : pair.start);
   const auto add = [&](const AlignedArray& q) {
-    result.frames.push_back({pair.start.box, pair.start.species, layout.to_user(metric.to_positions(q))});
+    result.frames.push_back({pair.start.box, pair.start.species, prepared.layout.to_user(prepared.metric.to_positions(q))});
   };
   for (const AlignedArray& q : finder.recorder().frames()) add(q);
   if (finder.outcome() == Outcome::reached)
@@ -89,15 +117,18 @@ PathResult summarise(const Search<Stepper>& search, const ConfigurationPair& pai
 struct Run {
   const LennardJonesModel& model;
   const std::vector<ConfigurationPair>& pairs;
+  std::vector<PreparedPair> prepared;
   const PathRunOptions& options;
   Isa isa;
   const CheckpointOptions& checkpoint;
   RunMonitor& monitor;
   std::vector<std::atomic<double>> covered;  // of the way, 0 ... 1 per pair
 
-  Run(const LennardJonesModel& m, const std::vector<ConfigurationPair>& p, const PathRunOptions& o, Isa i, const CheckpointOptions& c,
-      RunMonitor& w)
-      : model(m), pairs(p), options(o), isa(i), checkpoint(c), monitor(w), covered(p.size()) {}
+  Run(const LennardJonesModel& m, const std::vector<ConfigurationPair>& p, const PathRunOptions& o, Isa i,
+      const CheckpointOptions& c, RunMonitor& w)
+      : model(m), pairs(p), options(o), isa(i), checkpoint(c), monitor(w), covered(p.size()) {
+    for (std::size_t k = 0; k < pairs.size(); ++k) prepared.push_back(prepare(model, pairs[k], k, options, isa));
+  }
 
   void report(std::size_t number, double part) {
     covered[number] = part;
@@ -108,27 +139,20 @@ struct Run {
 };
 
 template <class Stepper>
-PathResult search_one_way(Run& run, std::size_t number, bool reversed, const ParticleLayout& layout, const Metric& metric) {
+PathResult search_one_way(Run& run, std::size_t number, bool reversed) {
   const ConfigurationPair& pair = run.pairs[number];
-  const auto landscape = make_landscape(run.model, pair.start.box, layout, run.isa, metric);
-  AlignedArray start = metric.to_kinematic(layout.to_slots((reversed ? pair.finish : pair.start).positions));
-  AlignedArray goal = metric.to_kinematic(layout.to_slots((reversed ? pair.start : pair.finish).positions));
-  const double highest_end = std::max(landscape->energy(start), landscape->energy(goal));
-  const double landscape_energy = run.options.landscape_energy.value_or(highest_end);
-  if (!(highest_end <= landscape_energy))
-    throw_bad_input(fmt::format("pair {}: an end point has energy {}, above the landscape energy {}", number + 1, highest_end,
-                                landscape_energy));
-  const double distance = landscape->algebra().distance(start, goal);
-
+  const PreparedPair& prepared = run.prepared[number];
+  const auto landscape = make_landscape(run.model, pair.start.box, prepared.layout, run.isa, prepared.metric);
   typename Stepper::Options stepper_options;
   stepper_options.direct_step = run.options.direct_step;
-  Search<Stepper> search{PathFinder<Stepper>(*landscape, Stepper(*landscape, landscape_energy, stepper_options), std::move(start),
-                                             std::move(goal), landscape_energy, run.options.finder)};
+  Search<Stepper> search{PathFinder<Stepper>(*landscape, Stepper(*landscape, prepared.landscape_energy, stepper_options),
+                                             reversed ? prepared.goal : prepared.start, reversed ? prepared.start : prepared.goal,
+                                             prepared.landscape_energy, run.options.finder)};
   const auto file = run.checkpoint.folder / fmt::format("path-{:04}{}.h5", number + 1, reversed ? "-reverse" : "");
   if (run.checkpoint.enabled() && run.checkpoint.resume) load_checkpoint(file, search);
 
   auto& finder = search.finder;
-  const std::uint64_t chunk = steps_per_chunk(layout.size());
+  const std::uint64_t chunk = steps_per_chunk(prepared.layout.size());
   auto last = Clock::now();
   bool interrupted = false;
   const bool was_running = finder.outcome() == Outcome::running;
@@ -137,7 +161,7 @@ PathResult search_one_way(Run& run, std::size_t number, bool reversed, const Par
     const auto now = Clock::now();
     search.seconds += std::chrono::duration<double>(now - last).count();
     last = now;
-    const double part = 1.0 - finder.distance_left() / distance;
+    const double part = 1.0 - finder.distance_left() / prepared.distance;
     run.report(number, run.options.reverse ? 0.5 * (part + (reversed ? 1.0 : 0.0)) : part);
     interrupted = finder.outcome() == Outcome::running && run.monitor.stop_requested();
     const bool due = finder.steps() % (chunk * chunks_per_checkpoint) == 0;
@@ -145,21 +169,14 @@ PathResult search_one_way(Run& run, std::size_t number, bool reversed, const Par
   }
   if (run.checkpoint.enabled() && was_running && !interrupted) save_checkpoint(file, search);
 
-  PathResult result = summarise(search, pair, layout, metric, reversed, interrupted);
-  result.distance = distance;
-  result.landscape_energy = landscape_energy;
-  return result;
+  return summarise(search, pair, prepared, reversed, interrupted);
 }
 
 template <class Stepper>
 PathResult search_pair(Run& run, std::size_t number) {
-  const ConfigurationPair& pair = run.pairs[number];
-  const ParticleLayout layout(pair.start.species, run.model.species.size());
-  Metric metric;
-  if (!has_equal_masses(run.model)) metric.scale = kinematic_scale(run.model, layout);
-  PathResult forward = search_one_way<Stepper>(run, number, false, layout, metric);
+  PathResult forward = search_one_way<Stepper>(run, number, false);
   if (!run.options.reverse || forward.outcome == Outcome::interrupted) return forward;
-  PathResult backward = search_one_way<Stepper>(run, number, true, layout, metric);
+  PathResult backward = search_one_way<Stepper>(run, number, true);
   if (backward.outcome == Outcome::interrupted) return backward;
   const bool keep_backward =
       backward.outcome == Outcome::reached && (forward.outcome != Outcome::reached || backward.length < forward.length);
@@ -200,10 +217,10 @@ void PathRunOptions::check() const {
 }
 
 std::vector<PathResult> run_paths(const LennardJonesModel& model, const std::vector<ConfigurationPair>& pairs,
-                                  const PathRunOptions& options, Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor) {
+                                  const PathRunOptions& options, Isa isa, const CheckpointOptions& checkpoint,
+                                  RunMonitor& monitor) {
   options.check();
   if (pairs.empty()) throw_bad_input("no pair of end points was given");
-  for (std::size_t k = 0; k < pairs.size(); ++k) check_end_points(pairs[k], model, fmt::format("pair {}", k + 1));
 
   Run run(model, pairs, options, isa, checkpoint, monitor);
   std::vector<PathResult> results(pairs.size());

@@ -29,22 +29,22 @@ struct PathRunOptions {
   std::optional<double> landscape_energy;  // E_L; else the higher of the two ends [epsilon]
   bool reverse = false;                    // search from the far end too and keep the shorter path
   FinderOptions finder;
-  int threads = 1;                         // paths searched at once; no effect on any result
+  int threads = 1;  // paths searched at once; no effect on any result
   // Throws Error(bad_input) naming the option that is out of range.
   void check() const;
 };
 
 struct PathResult {
   Outcome outcome = Outcome::running;
-  std::string reason;                // why it ended where it did not reach its goal
-  bool reversed = false;             // found from R_f to R_i; frames and trace run that way
-  double length = 0.0;               // g [sigma], the last hop included
-  double distance = 0.0;             // DeltaR = |R_f - R_i| [sigma]
-  double participation_number = 0.0; // n, mean over steps weighted with their length
+  std::string reason;                 // why it ended where it did not reach its goal
+  bool reversed = false;              // found from R_f to R_i; frames and trace run that way
+  double length = 0.0;                // g [sigma], the last hop included
+  double distance = 0.0;              // DeltaR = |R_f - R_i| [sigma]
+  double participation_number = 0.0;  // n, mean over steps weighted with their length
   std::uint64_t direct_steps = 0, detour_steps = 0, evaluations = 0;
   std::vector<std::uint64_t> corrections;  // histogram of the stepper's inner iterations per detour
-  double landscape_energy = 0.0;     // E_L [epsilon]
-  double largest_violation = 0.0;    // largest V - E_L of an accepted point, at least 0 [epsilon]
+  double landscape_energy = 0.0;           // E_L [epsilon]
+  double largest_violation = 0.0;          // largest V - E_L of an accepted point, at least 0 [epsilon]
   double seconds = 0.0;
   DecimatedTrace trace{PathRecorder::columns, PathRecorder::trace_rows};
   std::vector<Configuration> frames;  // from one end to the other, ends included

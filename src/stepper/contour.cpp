@@ -55,7 +55,8 @@ std::optional<StepKind> ContourStepper::step(const PathPoint& at, AlignedArray& 
       return StepKind::detour;
     }
   }
-  failure_ = fmt::format("no allowed point after {} corrections of {} along the gradient", options_.max_corrections, options_.correction);
+  failure_ =
+      fmt::format("no allowed point after {} corrections of {} along the gradient", options_.max_corrections, options_.correction);
   return std::nullopt;
 }
 

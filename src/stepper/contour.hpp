@@ -27,8 +27,8 @@ class ContourStepper {
   std::optional<StepKind> step(const PathPoint& at, AlignedArray& next);
 
   double step_length() const { return options_.direct_step; }
-  double energy() const { return energy_; }                      // V at the last accepted point
-  std::uint64_t evaluations() const { return evaluations_; }     // of V, with or without gradient
+  double energy() const { return energy_; }                   // V at the last accepted point
+  std::uint64_t evaluations() const { return evaluations_; }  // of V, with or without gradient
   const std::string& failure() const { return failure_; }
   // How many contour steps took k = 0, 1, 2, ... corrections; the last entry counts all beyond.
   const std::vector<std::uint64_t>& corrections() const { return corrections_; }

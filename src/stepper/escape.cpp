@@ -27,12 +27,15 @@ std::optional<StepKind> EscapeStepper::step(const PathPoint& at, AlignedArray& n
       return std::nullopt;
     }
     algebra.axpy(next, next, -(energy_ - landscape_energy_) / slope_squared, gradient_);
+    const bool with_gradient = n < expected_iterations_;
     ++evaluations_;
-    energy_ = landscape_->energy(next);
+    energy_ = with_gradient ? landscape_->energy_and_gradient(next, gradient_) : landscape_->energy(next);
     if (allowed(energy_)) {
       ++corrections_[std::min<std::size_t>(n, corrections_.size() - 1)];
+      expected_iterations_ = n;
       return StepKind::detour;
     }
+    if (with_gradient) continue;
     ++evaluations_;
     landscape_->energy_and_gradient(next, gradient_);
   }
@@ -44,6 +47,7 @@ void EscapeStepper::exchange(Archive& archive, const AlignedArray&) {
   archive.field("stepper_energy", energy_);
   archive.field("evaluations", evaluations_);
   archive.field("corrections", corrections_);
+  archive.field("expected_iterations", expected_iterations_);
 }
 
 }  // namespace lanescape

@@ -48,6 +48,8 @@ class EscapeStepper {
   std::uint64_t evaluations_ = 0;
   std::vector<std::uint64_t> corrections_;
   std::string failure_;
+  // Iterations the last escape took: up to there the next one is likely to go on, so that its gradients are worth having.
+  std::uint64_t expected_iterations_ = 1;
   AlignedArray gradient_;
 };
 

@@ -95,7 +95,7 @@ def contents(folder):
         if file.name == "result.json":
             files[file.name] = without_seconds(one_object(file.read_text()))
         elif file.name == "paths.csv":
-            files[file.name] = [{k: v for k, v in row.items() if k != "seconds"} for row in csv.DictReader(file.open())]
+            files[file.name] = [{k: v for k, v in row.items() if k != "seconds"} for row in csv.DictReader(file.read_text().splitlines())]
         elif file.is_file():
             files[file.name] = file.read_bytes()
     return files
@@ -435,7 +435,7 @@ class Paths(ProgramTest):
             ratios = [path["ratio_squared"] for path in result["paths"]]
             self.assertAlmostEqual(result["mean_ratio_squared"], numpy.mean(ratios), delta=1e-12)
             self.assertAlmostEqual(result["standard_error"], numpy.std(ratios, ddof=1) / math.sqrt(2), delta=1e-12)
-            rows = list(csv.DictReader((out / "paths.csv").open()))
+            rows = list(csv.DictReader((out / "paths.csv").read_text().splitlines()))
             self.assertEqual([float(row["length"]) for row in rows], [path["length"] for path in result["paths"]])
             for k, pair in enumerate(pairs, 1):
                 lines = (out / f"path-{k:04}.extxyz").read_text().splitlines()

@@ -15,7 +15,8 @@
 
 namespace lanescape::testing {
 
-inline Isa best_isa() { return available_isas().back(); }
+// The best there is, or what LANESCAPE_ISA says.
+inline Isa active_isa() { return choose_isa("auto"); }
 
 // A configuration with everything that moves it. Not copied or moved: its parts refer to one another.
 struct System {
@@ -28,7 +29,7 @@ struct System {
       : model(std::move(m)),
         configuration(std::move(c)),
         layout(configuration.species, model.species.size()),
-        landscape(model, configuration.box, layout, best_isa()) {}
+        landscape(model, configuration.box, layout, active_isa()) {}
   System(const System&) = delete;
   System& operator=(const System&) = delete;
 
@@ -43,6 +44,20 @@ struct System {
 // 108 particles of Kob and Andersen's mixture, molten, at density 1.2.
 inline Configuration molten_kob_andersen() {
   return read_frames(std::string(LANESCAPE_TEST_DATA_DIR) + "/ka_melted_108.extxyz", kob_andersen()).front().configuration;
+}
+
+// The position of lowest energy on the way of the next `steps` steps: between two such the landscape energy is low, and a path
+// meets its boundary.
+inline AlignedArray lowest_on_the_way(VelocityVerlet& verlet, int steps) {
+  AlignedArray lowest = verlet.position();
+  double energy = verlet.potential_energy();
+  for (int k = 0; k < steps; ++k) {
+    verlet.step();
+    if (verlet.potential_energy() >= energy) continue;
+    energy = verlet.potential_energy();
+    lowest = verlet.position();
+  }
+  return lowest;
 }
 
 inline LennardJonesModel with_masses(LennardJonesModel model, double first, double second) {

@@ -106,13 +106,15 @@ void write_trace(std::ostream& out, const PathResult& path) {
 
 void write_files(OutputFolder& folder, const std::vector<PathResult>& paths, PathMethod method, const LennardJonesModel& model) {
   folder.write("paths.csv", [&](std::ostream& out) {
-    fmt::print(out, "path,outcome,length,distance,ratio_squared,participation_ratio,direct_steps,{}_steps,evaluations,seconds,"
-                    "landscape_energy,largest_violation,reversed\n", to_string(method));
+    fmt::print(out,
+               "path,outcome,length,distance,ratio_squared,participation_ratio,direct_steps,{}_steps,evaluations,seconds,"
+               "landscape_energy,largest_violation,reversed\n",
+               to_string(method));
     for (std::size_t k = 0; k < paths.size(); ++k) {
       const PathResult& p = paths[k];
-      fmt::print(out, "{},{},{},{},{},{},{},{},{},{},{},{},{}\n", k + 1, to_string(p.outcome), p.length, p.distance, p.ratio_squared(),
-                 p.participation_number / static_cast<double>(p.frames.front().size()), p.direct_steps, p.detour_steps, p.evaluations,
-                 p.seconds, p.landscape_energy, p.largest_violation, p.reversed ? 1 : 0);
+      fmt::print(out, "{},{},{},{},{},{},{},{},{},{},{},{},{}\n", k + 1, to_string(p.outcome), p.length, p.distance,
+                 p.ratio_squared(), p.participation_number / static_cast<double>(p.frames.front().size()), p.direct_steps,
+                 p.detour_steps, p.evaluations, p.seconds, p.landscape_energy, p.largest_violation, p.reversed ? 1 : 0);
     }
   });
   for (std::size_t k = 0; k < paths.size(); ++k) {
@@ -130,7 +132,8 @@ Json run_path(PathState& state, const Options& options, const Options& setup_opt
   const Isa isa = state.common.resolve_isa();
   const LennardJonesModel model = state.system.resolve();
   const PathRunOptions path_options = state.run_options();
-  if (state.plot && state.common.out.empty() && state.common.resume.empty()) throw_bad_input("--plot needs --out: the plots are files");
+  if (state.plot && state.common.out.empty() && state.common.resume.empty())
+    throw_bad_input("--plot needs --out: the plots are files");
 
   // All input is read and checked before anything is written.
   const bool resumed = !state.common.resume.empty();

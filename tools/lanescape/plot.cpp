@@ -8,9 +8,18 @@
 
 namespace lanescape::program {
 
+namespace {
+
+// LANESCAPE_PLOT_SCRIPT in the environment, else beside an installed program, else in the source tree it was built from.
+std::string plot_script() {
+  if (const char* given = std::getenv("LANESCAPE_PLOT_SCRIPT")) return given;
+  return std::filesystem::exists(LANESCAPE_INSTALLED_PLOT_SCRIPT) ? LANESCAPE_INSTALLED_PLOT_SCRIPT : LANESCAPE_PLOT_SCRIPT;
+}
+
+}  // namespace
+
 void draw_plots(const std::filesystem::path& folder, const CommonOptions& common) {
-  const char* script = std::getenv("LANESCAPE_PLOT_SCRIPT");
-  const std::string script_path = script != nullptr ? script : LANESCAPE_PLOT_SCRIPT;
+  const std::string script_path = plot_script();
   const std::string folder_path = folder.string();
   const pid_t child = fork();
   if (child == 0) {

@@ -1,0 +1,339 @@
+#include "path/finder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "configuration/lattice.hpp"
+#include "landscape/kinematic_landscape.hpp"
+#include "reference/geodesic.hpp"
+#include "reference/lennard_jones.hpp"
+#include "run/path_run.hpp"
+#include "stepper/contour.hpp"
+#include "stepper/escape.hpp"
+#include "systems.hpp"
+
+namespace lanescape {
+namespace {
+
+using testing::System;
+using Point = std::vector<double>;  // interleaved, as the reference has it
+
+// V = -|r_1 - r_2| of two particles: V <= -s is the outside of a hard sphere of diameter s.
+class TwoSpheres final : public SoftLandscape {
+ public:
+  TwoSpheres() : layout_({0, 0}, 1), algebra_(kernel_table(testing::active_isa())) {}
+  const ParticleLayout& layout() const { return layout_; }
+  std::size_t dimension() const override { return layout_.dimension(); }
+  std::size_t particles() const override { return 2; }
+  const VectorAlgebra& algebra() const override { return algebra_; }
+  double energy(const AlignedArray& r) override { return -std::sqrt(squared(separation(r))); }
+  double energy_and_gradient(const AlignedArray& r, AlignedArray& gradient) override {
+    const auto d = separation(r);
+    const double length = std::sqrt(squared(d));
+    std::fill(gradient.begin(), gradient.end(), 0.0);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      gradient[axis * layout_.slots()] = -d[axis] / length;
+      gradient[axis * layout_.slots() + 1] = d[axis] / length;
+    }
+    return -length;
+  }
+
+ private:
+  std::array<double, 3> separation(const AlignedArray& r) const {
+    std::array<double, 3> d{};
+    for (std::size_t axis = 0; axis < 3; ++axis) d[axis] = r[axis * layout_.slots()] - r[axis * layout_.slots() + 1];
+    return d;
+  }
+  static double squared(const std::array<double, 3>& d) { return d[0] * d[0] + d[1] * d[1] + d[2] * d[2]; }
+
+  ParticleLayout layout_;
+  VectorAlgebra algebra_;
+};
+
+// Two spheres about a resting centre of mass, `r` apart, at an angle in a tilted plane.
+Point two_spheres(double r, double degrees) {
+  const double angle = degrees * std::numbers::pi / 180.0;
+  const double x = 0.5 * r * std::cos(angle), y = 0.3 * r * std::sin(angle), z = 0.4 * r * std::sin(angle);
+  return {x, y, z, -x, -y, -z};
+}
+
+template <class Stepper>
+PathFinder<Stepper> finder_on_two_spheres(TwoSpheres& landscape, double degrees, double step, const FinderOptions& options = {}) {
+  typename Stepper::Options stepping;
+  stepping.direct_step = step;
+  return {landscape,
+          Stepper(landscape, -1.0, stepping),
+          landscape.layout().to_slots(two_spheres(3.0, 0.0)),
+          landscape.layout().to_slots(two_spheres(3.0, degrees)),
+          -1.0,
+          options};
+}
+
+reference::Geodesic reference_on_two_spheres(reference::Method method, double degrees, double step) {
+  const auto energy = [](const Point& r) { return -std::hypot(r[0] - r[3], r[1] - r[4], r[2] - r[5]); };
+  const auto gradient = [&](const Point& r, Point& g) {
+    const double length = -energy(r);
+    for (std::size_t axis = 0; axis < 3; ++axis) g[axis] = -(r[axis] - r[axis + 3]) / length, g[axis + 3] = -g[axis];
+  };
+  reference::GeodesicOptions options;
+  options.step = step;
+  options.landscape_energy = -1.0;
+  return reference::find_geodesic(two_spheres(3.0, 0.0), two_spheres(3.0, degrees), energy, gradient, method, options);
+}
+
+template <class Stepper>
+constexpr reference::Method method_of =
+    std::is_same_v<Stepper, ContourStepper> ? reference::Method::contour : reference::Method::escape;
+
+template <class Stepper>
+class PathFinderWith : public ::testing::Test {};
+using Steppers = ::testing::Types<ContourStepper, EscapeStepper>;
+struct StepperName {
+  template <class Stepper>
+  static std::string GetName(int) {
+    return Stepper::detour_name;
+  }
+};
+TYPED_TEST_SUITE(PathFinderWith, Steppers, StepperName);
+
+TYPED_TEST(PathFinderWith, SlidesAroundASphereByTheGreedyLength) {
+  TwoSpheres landscape;
+  auto finder = finder_on_two_spheres<TypeParam>(landscape, 170.0, 1e-3);
+  finder.advance(100'000);
+  ASSERT_EQ(finder.outcome(), Outcome::reached) << finder.reason();
+  EXPECT_NEAR(finder.statistics().length(), 6.4106 / std::numbers::sqrt2, 2e-3);
+  EXPECT_NEAR(finder.statistics().participation_number(), 2.0, 1e-9);  // the two move by opposite amounts
+  EXPECT_GT(finder.detour_steps(), 1000u);
+  EXPECT_EQ(finder.distance_left(), 0.0);
+  EXPECT_LE(finder.largest_violation(), TypeParam::detour_name == std::string("contour") ? 0.0 : 1e-4 * (1.0 + 1e-9));
+}
+
+TYPED_TEST(PathFinderWith, TakesTheStepsOfTheReferenceAroundASphere) {
+  for (const double degrees : {30.0, 120.0, 170.0}) {
+    TwoSpheres landscape;
+    auto finder = finder_on_two_spheres<TypeParam>(landscape, degrees, 2e-3);
+    finder.advance(100'000);
+    const auto expected = reference_on_two_spheres(method_of<TypeParam>, degrees, 2e-3);
+    ASSERT_EQ(finder.outcome(), Outcome::reached);
+    ASSERT_EQ(expected.outcome, reference::Outcome::reached);
+    EXPECT_EQ(finder.direct_steps(), static_cast<std::uint64_t>(expected.direct_steps));
+    EXPECT_EQ(finder.detour_steps(), static_cast<std::uint64_t>(expected.contour_steps + expected.escape_steps));
+    EXPECT_NEAR(finder.statistics().length() / expected.length, 1.0, 1e-9);
+    EXPECT_NEAR(finder.statistics().participation_number() / expected.participation, 1.0, 1e-9);
+  }
+}
+
+// End points a little apart in a small, dense box, where particles see several images of each other.
+struct Cluster {
+  System system;
+  AlignedArray start, finish;
+  explicit Cluster(std::size_t particles) : system(kob_andersen(), fcc_start(kob_andersen(), particles, 1.2, 3)) {
+    VelocityVerlet verlet = system.moving(3.0, 1e-3, particles);
+    for (int k = 0; k < 1000; ++k) verlet.step();
+    start = testing::lowest_on_the_way(verlet, 300);
+    finish = testing::lowest_on_the_way(verlet, 300);
+  }
+};
+
+TYPED_TEST(PathFinderWith, TakesTheStepsOfTheReferenceInALennardJonesLiquid) {
+  const reference::Mixture mixture{2, {1.0, 1.5, 1.5, 0.5}, {1.0, 0.8, 0.8, 0.88}, {2.5, 2.0, 2.0, 2.2}};
+  for (const std::size_t particles : {8u, 13u, 20u}) {
+    SCOPED_TRACE(particles);
+    Cluster cluster(particles);
+    System& system = cluster.system;
+    const auto evaluate = [&](const Point& r) {
+      return reference::lennard_jones(r, system.configuration.species, system.configuration.box.length, mixture,
+                                      reference::ImageRule::all, reference::Truncation::shifted);
+    };
+    reference::GeodesicOptions options;
+    options.step = 5e-3;
+    const auto expected = reference::find_geodesic(
+        system.layout.to_user(cluster.start), system.layout.to_user(cluster.finish),
+        [&](const Point& r) { return evaluate(r).energy; }, [&](const Point& r, Point& g) { g = evaluate(r).gradient; },
+        method_of<TypeParam>, options);
+
+    const double limit = std::max(system.landscape.energy(cluster.start), system.landscape.energy(cluster.finish));
+    typename TypeParam::Options stepping;
+    stepping.direct_step = 5e-3;
+    PathFinder<TypeParam> finder(system.landscape, TypeParam(system.landscape, limit, stepping), cluster.start, cluster.finish,
+                                 limit, {});
+    finder.advance(100'000);
+
+    EXPECT_NEAR(limit, expected.landscape_energy, 1e-10 * std::fabs(limit));
+    ASSERT_EQ(finder.outcome(), Outcome::reached) << finder.reason();
+    ASSERT_EQ(expected.outcome, reference::Outcome::reached) << expected.reason;
+    EXPECT_GT(finder.detour_steps(), 20u);
+    EXPECT_EQ(finder.direct_steps(), static_cast<std::uint64_t>(expected.direct_steps));
+    EXPECT_EQ(finder.detour_steps(), static_cast<std::uint64_t>(expected.contour_steps + expected.escape_steps));
+    EXPECT_NEAR(finder.statistics().length() / expected.length, 1.0, 1e-9);
+    EXPECT_NEAR(finder.statistics().participation_number() / expected.participation, 1.0, 1e-9);
+  }
+}
+
+TYPED_TEST(PathFinderWith, StallsHeadOnAndStaysFinite) {
+  TwoSpheres landscape;
+  auto finder = finder_on_two_spheres<TypeParam>(landscape, 180.0, 1e-3);
+  finder.advance(1'000'000);
+  EXPECT_EQ(finder.outcome(), Outcome::stalled);
+  EXPECT_NE(finder.reason(), "");
+  EXPECT_TRUE(std::isfinite(finder.statistics().length()));
+  EXPECT_NEAR(-landscape.energy(finder.position()), 1.0, 5e-3);  // at contact
+  EXPECT_LT(finder.steps(), 10'000u);
+  const std::uint64_t steps = finder.steps();
+  finder.advance(1000);
+  EXPECT_EQ(finder.steps(), steps);  // it has ended
+}
+
+TYPED_TEST(PathFinderWith, EndsAtTheStepLimitAndNotBefore) {
+  for (const std::uint64_t limit : {1u, 100u, 2000u}) {
+    TwoSpheres landscape;
+    FinderOptions options;
+    options.max_steps = limit;
+    auto finder = finder_on_two_spheres<TypeParam>(landscape, 170.0, 1e-3, options);
+    finder.advance(limit);
+    EXPECT_EQ(finder.outcome(), Outcome::running);
+    finder.advance(1000);
+    EXPECT_EQ(finder.outcome(), Outcome::step_limit);
+    EXPECT_EQ(finder.steps(), limit);
+  }
+}
+
+TEST(PathFinder, GivesUpAfterAsManyStepsWithoutProgressAsItHasPatience) {
+  std::vector<std::uint64_t> steps;
+  for (const std::uint64_t patience : {50u, 1000u}) {
+    TwoSpheres landscape;
+    FinderOptions options;
+    options.patience = patience;
+    auto finder = finder_on_two_spheres<EscapeStepper>(landscape, 180.0, 1e-3, options);
+    finder.advance(1'000'000);
+    EXPECT_EQ(finder.outcome(), Outcome::stalled);
+    EXPECT_NE(finder.reason().find("no progress"), std::string::npos) << finder.reason();
+    steps.push_back(finder.steps());
+  }
+  EXPECT_EQ(steps[1] - steps[0], 950u);
+}
+
+TYPED_TEST(PathFinderWith, KeepsNoMoreTheLongerThePath) {
+  for (const double step : {1e-3, 1e-5}) {
+    TwoSpheres landscape;
+    FinderOptions options;
+    options.frames = 20;
+    auto finder = finder_on_two_spheres<TypeParam>(landscape, 100.0, step, options);
+    finder.advance(10'000'000);
+    ASSERT_EQ(finder.outcome(), Outcome::reached);
+    EXPECT_EQ(finder.recorder().frames().size(), 20u);
+    EXPECT_GT(finder.recorder().trace().rows(), 1000u);
+    EXPECT_LE(finder.recorder().trace().rows(), PathRecorder::trace_rows);
+  }
+}
+
+TEST(PathFinder, FramesAreEquallySpacedInTheDistanceToTheGoal) {
+  TwoSpheres landscape;
+  FinderOptions options;
+  options.frames = 9;
+  auto finder = finder_on_two_spheres<ContourStepper>(landscape, 150.0, 1e-3, options);
+  const double whole = finder.distance_left();
+  const AlignedArray goal = landscape.layout().to_slots(two_spheres(3.0, 150.0));
+  finder.advance(100'000);
+  ASSERT_EQ(finder.recorder().frames().size(), 9u);
+  for (std::size_t k = 0; k < 9; ++k)
+    EXPECT_NEAR(landscape.algebra().distance(finder.recorder().frames()[k], goal), whole * (1.0 - 0.1 * static_cast<double>(k + 1)),
+                2e-3);
+}
+
+// Two configurations of one trajectory under the model's own masses, so that the centre of mass rests.
+ConfigurationPair pair_of(const LennardJonesModel& model) {
+  System system(model, testing::molten_kob_andersen());
+  VelocityVerlet verlet = system.moving(2.0);
+  for (int k = 0; k < 1000; ++k) verlet.step();
+  ConfigurationPair pair{system.configuration, system.configuration, 0.0, 0};
+  pair.start.positions = system.layout.to_user(testing::lowest_on_the_way(verlet, 1000));
+  pair.finish.positions = system.layout.to_user(testing::lowest_on_the_way(verlet, 1000));
+  return pair;
+}
+
+PathResult contour_path(const LennardJonesModel& model, const ConfigurationPair& pair, std::size_t frames = 500) {
+  PathRunOptions options;
+  options.finder.frames = frames;
+  SilentMonitor monitor;
+  return run_paths(model, {pair}, options, testing::active_isa(), {}, monitor).front();
+}
+
+double mass_of(const LennardJonesModel& model, const Configuration& c, std::size_t particle) {
+  return model.species[static_cast<std::size_t>(c.species[particle])].mass;
+}
+
+// sqrt(sum m dr^2 / <m>)
+double kinematic_distance(const LennardJonesModel& model, const Configuration& a, const Configuration& b) {
+  double sum = 0.0, mass = 0.0;
+  for (std::size_t k = 0; k < a.positions.size(); ++k) {
+    const double d = b.positions[k] - a.positions[k];
+    sum += mass_of(model, a, k / 3) * d * d;
+    mass += mass_of(model, a, k / 3) / 3.0;
+  }
+  return std::sqrt(sum * static_cast<double>(a.size()) / mass);
+}
+
+// How far the centre gets from where it starts, particles weighted with the masses of `model`.
+double drift(const LennardJonesModel& model, const std::vector<Configuration>& frames) {
+  double farthest = 0.0;
+  for (const Configuration& frame : frames) {
+    std::array<double, 3> moved{};
+    for (std::size_t k = 0; k < frame.positions.size(); ++k)
+      moved[k % 3] += mass_of(model, frame, k / 3) * (frame.positions[k] - frames.front().positions[k]);
+    for (const double x : moved) farthest = std::max(farthest, std::fabs(x));
+  }
+  return farthest;
+}
+
+TEST(KinematicMetric, LengthsAreWeightedWithTheMasses) {
+  const auto model = testing::with_masses(kob_andersen(), 1.0, 3.0);
+  const auto pair = pair_of(model);
+  const PathResult path = contour_path(model, pair);
+  ASSERT_EQ(path.outcome, Outcome::reached) << path.reason;
+  EXPECT_GT(path.detour_steps, 100u);
+  EXPECT_NEAR(path.distance, kinematic_distance(model, pair.start, pair.finish), 1e-10);
+  double polygon = 0.0;
+  for (std::size_t k = 1; k < path.frames.size(); ++k) polygon += kinematic_distance(model, path.frames[k - 1], path.frames[k]);
+  EXPECT_LE(polygon, path.length * (1.0 + 1e-12));
+  EXPECT_GT(polygon, 0.99 * path.length);
+}
+
+TEST(KinematicMetric, TheCentreOfMassDoesNotDriftAlongAPath) {
+  const auto model = testing::with_masses(kob_andersen(), 1.0, 3.0);
+  const auto pair = pair_of(model);
+  EXPECT_LT(drift(model, contour_path(model, pair).frames), 1e-8);
+  // Without the metric it would: the forces balance, not the displacements they cause.
+  EXPECT_GT(drift(model, contour_path(kob_andersen(), pair).frames), 1e-3);
+}
+
+TEST(KinematicMetric, ACommonFactorOfAllMassesChangesNothing) {
+  const auto equal = [&](const LennardJonesModel& a, const LennardJonesModel& b) {
+    const auto pair = pair_of(a);
+    const PathResult one = contour_path(a, pair), other = contour_path(b, pair);
+    EXPECT_EQ(one.outcome, Outcome::reached);
+    EXPECT_EQ(one.length, other.length);
+    EXPECT_EQ(one.distance, other.distance);
+    EXPECT_EQ(one.detour_steps, other.detour_steps);
+    EXPECT_EQ(one.frames.at(200).positions, other.frames.at(200).positions);
+  };
+  equal(testing::with_masses(kob_andersen(), 1.0, 1.0), testing::with_masses(kob_andersen(), 7.3, 7.3));
+  equal(testing::with_masses(kob_andersen(), 1.0, 3.0), testing::with_masses(kob_andersen(), 4.0, 12.0));
+}
+
+TEST(KinematicMetric, UnequalMassesChangeThePath) {
+  const auto model = testing::with_masses(kob_andersen(), 1.0, 3.0);
+  const auto pair = pair_of(model);
+  EXPECT_GT(std::fabs(contour_path(model, pair).length / contour_path(kob_andersen(), pair).length - 1.0), 1e-3);
+}
+
+}  // namespace
+}  // namespace lanescape
