@@ -13,7 +13,7 @@
 namespace lanescape {
 namespace {
 
-constexpr std::size_t max_particles = 10'000'000;
+constexpr std::size_t max_particles = 100'000;  // of what all-pairs evaluation can be asked to do
 constexpr double max_density = 100.0;
 
 // Fisher and Yates, from the end.

@@ -79,8 +79,12 @@ EndPointGenerator::EndPointGenerator(SoftLandscape& landscape, const LennardJone
       options_(options),
       verlet_(landscape, model, layout, std::move(start), options.time_step) {
   options_.check();
+  if (layout.size() < 2)
+    throw_bad_input(
+        fmt::format("{} particle has no temperature once its momentum is removed: at least 2 are needed", layout.size()));
   for (const Species& s : model.species) masses_.push_back(s.mass);
   verlet_.draw_velocities(options_.melt_temperature, options_.seed);
+  if (options_.melt_steps == 0) enter(Phase::cool);
 }
 
 const char* EndPointGenerator::name(Phase phase) {
@@ -130,6 +134,7 @@ double EndPointGenerator::distance_so_far() const {
 }
 
 void EndPointGenerator::enter(Phase phase) {
+  if (phase == Phase::cool && options_.cooling_steps == 0) phase = Phase::check;
   phase_ = phase;
   phase_start_ = verlet_.steps();
   // A repeated check corrects by what the last one found on average; the temperature of the moment fluctuates too much.

@@ -12,9 +12,9 @@ namespace {
 constexpr std::size_t trace_rows = 4096, trace_columns = 5, rdf_bins = 200;
 constexpr std::uint64_t rdf_interval = 1000;  // [steps]
 
-// Steps between looks at the clock and the outside world, and between checkpoints: about 10 ms and 2 s on one core.
+// Steps between looks at the clock and the outside world, and between checkpoints: about 10 ms and 1 s on one core.
 std::uint64_t steps_per_chunk(std::size_t particles) { return std::clamp<std::uint64_t>(150'000 / (particles + 1), 1, 1000); }
-constexpr std::uint64_t chunks_per_checkpoint = 300;
+constexpr std::uint64_t chunks_per_checkpoint = 100;
 
 struct EndPointState {
   EndPointGenerator generator;

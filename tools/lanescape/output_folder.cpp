@@ -39,7 +39,8 @@ OutputFolder::~OutputFolder() {
   for (auto made = made_here_.rbegin(); made != made_here_.rend(); ++made) fs::remove(*made, ignored);
 }
 
-void OutputFolder::write_run_file(const std::string& subcommand, const toml::table& resolved) {
+void OutputFolder::write_run_file(const std::string& subcommand, toml::table resolved) {
+  resolved.insert_or_assign("subcommand", subcommand);
   write("run.toml", [&](std::ostream& out) {
     out << "# The options this run was made with; lanescape " << subcommand << " --config run.toml repeats it.\n"
         << resolved << '\n';

@@ -26,7 +26,7 @@ class OutputFolder {
   // For checkpoints; empty where there is no folder.
   std::filesystem::path checkpoints() const { return exists() ? path_ / "checkpoint" : std::filesystem::path(); }
 
-  void write_run_file(const std::string& subcommand, const toml::table& resolved);
+  void write_run_file(const std::string& subcommand, toml::table resolved);
   void write(const std::string& name, const std::function<void(std::ostream&)>& writer);
   void keep() { made_here_.clear(); }
 

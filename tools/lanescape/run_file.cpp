@@ -89,6 +89,11 @@ std::vector<std::string> with_run_file(const std::vector<std::string>& arguments
   std::vector<std::string> positionals, added;
   for (const auto& [key, node] : table) {
     const std::string where = fmt::format("{}:{}: {}", file, node.source().begin.line, key.str());
+    if (key == "subcommand") {
+      if (node.value_or(std::string()) == subcommand.get_name()) continue;
+      throw_bad_input(fmt::format("{} is {}, this is {}: the run file belongs to the former", where,
+                                  node.value_or(std::string("?")), subcommand.get_name()));
+    }
     const CLI::Option* option = find_option(subcommand, std::string(key.str()));
     if (option == nullptr)
       throw_bad_input(
