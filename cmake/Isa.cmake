@@ -31,6 +31,11 @@ function(lanescape_add_kernels target)
       # The notes on passing wide vectors concern calls between objects, of which these have none.
       target_compile_options(lanescape_kernels_${isa} PRIVATE -Wno-uninitialized -Wno-maybe-uninitialized -Wno-psabi)
     endif()
+    if(LANESCAPE_SANITIZE)
+      # Instrumented, the forcibly inlined row loops take the compiler a quarter of an hour. The parity tests check the kernels;
+      # the sanitizers check what calls them.
+      target_compile_options(lanescape_kernels_${isa} PRIVATE -fno-sanitize=all)
+    endif()
     if(NOT isa STREQUAL "generic")
       target_link_libraries(lanescape_kernels_${isa} PRIVATE xsimd)
     endif()
