@@ -45,6 +45,10 @@ int LennardJonesModel::find_species(std::string_view symbol) const {
   throw_bad_input(fmt::format("unknown species '{}': model {} has {}", symbol, name, names));
 }
 
+bool LennardJonesModel::has_equal_masses() const {
+  return std::all_of(species.begin(), species.end(), [&](const Species& s) { return s.mass == species.front().mass; });
+}
+
 void LennardJonesModel::check() const {
   const std::size_t n = species.size();
   if (n == 0) throw_bad_input(fmt::format("model {} has no species", name));

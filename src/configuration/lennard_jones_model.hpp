@@ -37,6 +37,7 @@ struct LennardJonesModel {
   std::size_t pair(std::size_t a, std::size_t b) const { return a * species.size() + b; }
   // Index of a species by its name; throws Error(bad_input) listing the names there are.
   int find_species(std::string_view symbol) const;
+  bool has_equal_masses() const;
   // Throws Error(bad_input) unless sizes match, matrices are symmetric and every number is finite and in range.
   void check() const;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 
 namespace lanescape {
 
@@ -10,6 +12,10 @@ struct Box {
   std::array<double, 3> length{};  // [sigma]
 
   double volume() const { return length[0] * length[1] * length[2]; }
+  // The nearest image of a separation along one axis.
+  double nearest_image(std::size_t axis, double separation) const {
+    return separation - length[axis] * std::nearbyint(separation / length[axis]);
+  }
   double shortest() const { return *std::min_element(length.begin(), length.end()); }
   friend bool operator==(const Box&, const Box&) = default;
 };

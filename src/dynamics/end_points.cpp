@@ -84,7 +84,7 @@ EndPointGenerator::EndPointGenerator(SoftLandscape& landscape, const LennardJone
         fmt::format("{} particle has no temperature once its momentum is removed: at least 2 are needed", layout.size()));
   for (const Species& s : model.species) masses_.push_back(s.mass);
   verlet_.draw_velocities(options_.melt_temperature, options_.seed);
-  if (options_.melt_steps == 0) enter(Phase::cool);
+  enter(Phase::melt);
 }
 
 const char* EndPointGenerator::name(Phase phase) {
@@ -111,8 +111,8 @@ const char* EndPointGenerator::name(Phase phase) {
   return "";
 }
 
-std::uint64_t EndPointGenerator::phase_total() const {
-  switch (phase_) {
+std::uint64_t EndPointGenerator::steps_of(Phase phase) const {
+  switch (phase) {
     case Phase::melt:
       return options_.melt_steps;
     case Phase::cool:
@@ -128,13 +128,27 @@ std::uint64_t EndPointGenerator::phase_total() const {
   }
 }
 
+std::optional<EndPointGenerator::Phase> EndPointGenerator::after(Phase phase) {
+  switch (phase) {
+    case Phase::melt:
+      return Phase::cool;
+    case Phase::cool:
+      return Phase::check;
+    case Phase::settle:
+    case Phase::between:
+      return Phase::pair;
+    default:
+      return std::nullopt;
+  }
+}
+
 double EndPointGenerator::distance_so_far() const {
   return phase_ == Phase::pair ? end_point_distance(pair_start_, verlet_.position(), *layout_, masses_, options_.distance_species)
                                : 0.0;
 }
 
 void EndPointGenerator::enter(Phase phase) {
-  if (phase == Phase::cool && options_.cooling_steps == 0) phase = Phase::check;
+  while (after(phase) && steps_of(phase) == 0) phase = *after(phase);
   phase_ = phase;
   phase_start_ = verlet_.steps();
   // A repeated check corrects by what the last one found on average; the temperature of the moment fluctuates too much.
@@ -167,27 +181,25 @@ void EndPointGenerator::step() {
   if (phase_ == Phase::melt || phase_ == Phase::cool) {
     if (done % options_.rescale_interval == 0)
       verlet_.rescale_to(phase_ == Phase::melt ? options_.melt_temperature : options_.temperature);
-    if (done >= phase_total()) enter(phase_ == Phase::melt ? Phase::cool : Phase::check);
-    return;
+  } else {
+    sample_temperature();
   }
-  sample_temperature();
-  if (phase_ == Phase::check) {
-    if (done < options_.check_steps) return;
+  if (const auto next = after(phase_)) {
+    if (done >= phase_total()) enter(*next);
+  } else if (phase_ == Phase::check) {
+    if (done < phase_total()) return;
     checked_temperature_ = check_sum_ / static_cast<double>(check_samples_);
     if (std::fabs(checked_temperature_ - options_.temperature) < options_.check_tolerance)
-      enter(options_.settle_steps > 0 ? Phase::settle : Phase::pair);
+      enter(Phase::settle);
     else
       enter(checks_ < options_.max_checks ? Phase::check : Phase::temperature_not_held);
-  } else if (phase_ == Phase::settle || phase_ == Phase::between) {
-    if (done >= phase_total()) enter(Phase::pair);
   } else if (phase_ == Phase::pair) {
     // Leaving out the drift, or particles, only shortens the distance: the vector kernel tells when a closer look is due.
     const bool near = landscape_->algebra().distance(pair_start_, verlet_.position()) >= options_.distance;
     const double distance = near ? distance_so_far() : 0.0;
     if (distance >= options_.distance) {
       pairs_.push_back({pair_start_, verlet_.position(), distance, done});
-      const Phase next = options_.between_steps > 0 ? Phase::between : Phase::pair;
-      enter(pairs_.size() < options_.pairs ? next : Phase::done);
+      enter(pairs_.size() < options_.pairs ? Phase::between : Phase::done);
     } else if (done >= options_.max_pair_steps) {
       enter(Phase::distance_not_reached);
     }

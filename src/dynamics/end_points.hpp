@@ -60,7 +60,7 @@ class EndPointGenerator {
   static const char* name(Phase phase);
   // Steps of the phase that are done, and how many it has (0 where that is not known).
   std::uint64_t phase_done() const { return verlet_.steps() - phase_start_; }
-  std::uint64_t phase_total() const;
+  std::uint64_t phase_total() const { return steps_of(phase_); }
   bool equilibrated() const { return phase_ >= Phase::settle && phase_ <= Phase::done; }
 
   const VelocityVerlet& verlet() const { return verlet_; }
@@ -75,6 +75,9 @@ class EndPointGenerator {
   void exchange(Archive& archive);
 
  private:
+  std::uint64_t steps_of(Phase phase) const;
+  // What follows a phase that lasts a number of steps and nothing else; such a phase of no steps is passed over.
+  static std::optional<Phase> after(Phase phase);
   void enter(Phase phase);
   void sample_temperature();
 

@@ -15,12 +15,8 @@ VelocityVerlet::VelocityVerlet(SoftLandscape& landscape, const LennardJonesModel
       gradient_(position_.size(), 0.0),
       time_step_(time_step) {
   const std::size_t padding = kernels::slot_padding;
-  bool equal = true;
-  for (const Species& s : model.species) {
-    masses_.push_back(s.mass);
-    equal = equal && s.mass == model.species.front().mass;
-  }
-  if (equal) {
+  for (const Species& s : model.species) masses_.push_back(s.mass);
+  if (model.has_equal_masses()) {
     segments_.push_back({0, layout.dimension(), masses_.front()});
   } else {
     for (std::size_t axis = 0; axis < 3; ++axis)

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -43,10 +44,8 @@ void check_separations(const Configuration& configuration, const LennardJonesMod
     for (std::size_t j = i + 1; j < configuration.size(); ++j) {
       double r2 = 0.0;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double length = configuration.box.length[axis];
         const double d = configuration.positions[3 * i + axis] - configuration.positions[3 * j + axis];
-        const double nearest = d - length * std::nearbyint(d / length);
-        r2 += nearest * nearest;
+        r2 += std::pow(configuration.box.nearest_image(axis, d), 2);
       }
       const double sigma = model.sigma[model.pair(static_cast<std::size_t>(configuration.species[i]),
                                                   static_cast<std::size_t>(configuration.species[j]))];
@@ -61,19 +60,25 @@ void check_separations(const Configuration& configuration, const LennardJonesMod
                                 worst_j, worst, allowed));
 }
 
+void check_cutoff(const LennardJonesModel& model, const Box& box) {
+  if (model.images == ImageRule::minimum) return;
+  const double cutoff = model.cutoff * *std::max_element(model.sigma.begin(), model.sigma.end());
+  if (shells(box.shortest(), cutoff) > max_image_shells)
+    throw_bad_input(
+        fmt::format("cutoff {} reaches over more than {} images of the box, whose shortest edge is {}: at most {} is allowed",
+                    cutoff, max_image_shells, box.shortest(), (max_image_shells + 0.5) * box.shortest()));
+}
+
 LennardJones::LennardJones(const LennardJonesModel& model, const Box& box, const ParticleLayout& layout,
                            const kernels::KernelTable& table)
     : table_(&table), blocks_(layout.blocks()), scratch_(layout.dimension(), 0.0) {
+  check_cutoff(model, box);
   const std::size_t n = model.species.size();
   bool lattice = false;
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t b = 0; b < n; ++b) {
       const double sigma = model.sigma[model.pair(a, b)], epsilon = model.epsilon[model.pair(a, b)];
       const double cutoff = model.cutoff * sigma;
-      if (model.images == ImageRule::all && shells(box.shortest(), cutoff) > max_image_shells)
-        throw_bad_input(
-            fmt::format("cutoff {} reaches over more than {} images of the box, whose shortest edge is {}: at most {} is allowed",
-                        cutoff, max_image_shells, box.shortest(), (max_image_shells + 0.5) * box.shortest()));
       const double s6 = std::pow(sigma, 6), c12 = 4.0 * epsilon * s6 * s6, c6 = 4.0 * epsilon * s6;
       const double inverse6 = std::pow(cutoff, -6);
       const double shift = model.truncation == Truncation::shifted ? (c12 * inverse6 - c6) * inverse6 : 0.0;

@@ -15,6 +15,11 @@ namespace lanescape {
 // Which image search a cutoff needs in a box (docs/ARCHITECTURE.md, "Small boxes"); lengths in the same unit.
 kernels::ImageSearch image_search(const Box& box, double cutoff, ImageRule rule);
 
+// Largest number of periodic images per direction that the rule `all` takes part in.
+inline constexpr int max_image_shells = 8;
+// Throws Error(bad_input) where some pair's cutoff reaches further than that.
+void check_cutoff(const LennardJonesModel& model, const Box& box);
+
 // Throws Error(bad_input) naming the closest pair if any two particles are nearer than 0.3 sigma_ab, where r^-12 has lost all
 // meaning, or the coordinate that is not finite. O(N^2).
 void check_separations(const Configuration& configuration, const LennardJonesModel& model);
@@ -23,11 +28,8 @@ void check_separations(const Configuration& configuration, const LennardJonesMod
 // memory of an evaluation, so that each thread needs its own. Coordinates are in the layout's order.
 class LennardJones {
  public:
-  // Throws Error(bad_input) where the cutoff spans more than max_image_shells boxes.
+  // Throws what check_cutoff() throws.
   LennardJones(const LennardJonesModel& model, const Box& box, const ParticleLayout& layout, const kernels::KernelTable& table);
-
-  // Largest number of periodic images per direction that the rule `all` takes part in.
-  static constexpr int max_image_shells = 8;
 
   struct Evaluation {
     double energy = 0.0;                    // [epsilon]

@@ -9,12 +9,26 @@
 
 namespace lanescape {
 
+// Between positions r and kinematic coordinates q = sqrt(m_j / <m>) r_j; nothing to do where all masses are equal.
+class KinematicMetric {
+ public:
+  KinematicMetric(const LennardJonesModel& model, const ParticleLayout& layout);
+
+  bool is_euclidean() const { return scale_.empty(); }
+  void to_kinematic(AlignedArray& positions) const;
+  void to_positions(AlignedArray& q) const;
+  // dV/dq of dV/dr.
+  void gradient_to_kinematic(AlignedArray& gradient) const { to_positions(gradient); }
+
+ private:
+  AlignedArray scale_;  // sqrt(m_j / <m>) per coordinate, 1 for padding
+};
+
 // The same landscape in coordinates q = sqrt(m_j / <m>) r_j. Lengths in q are kinematic lengths, ds^2 = sum m_j dr_j^2 / <m>,
 // and gradients in q are inverse-mass weighted, so that every finder stays Euclidean whatever the masses.
 class KinematicLandscape final : public SoftLandscape {
  public:
-  // `scale` per coordinate, as from kinematic_scale(); entries of padding are 1.
-  KinematicLandscape(std::unique_ptr<SoftLandscape> inner, AlignedArray scale);
+  KinematicLandscape(std::unique_ptr<SoftLandscape> inner, KinematicMetric metric);
 
   std::size_t dimension() const override { return inner_->dimension(); }
   std::size_t particles() const override { return inner_->particles(); }
@@ -23,14 +37,11 @@ class KinematicLandscape final : public SoftLandscape {
   double energy_and_gradient(const AlignedArray& position, AlignedArray& gradient) override;
 
  private:
-  const AlignedArray& to_positions(const AlignedArray& q);
+  const AlignedArray& position_of(const AlignedArray& q);
 
   std::unique_ptr<SoftLandscape> inner_;
-  AlignedArray scale_, position_;
+  KinematicMetric metric_;
+  AlignedArray position_;
 };
-
-// sqrt(m_j / <m>) for every coordinate of the layout.
-AlignedArray kinematic_scale(const LennardJonesModel& model, const ParticleLayout& layout);
-bool has_equal_masses(const LennardJonesModel& model);
 
 }  // namespace lanescape

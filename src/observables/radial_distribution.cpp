@@ -23,9 +23,8 @@ void RadialDistribution::add(const AlignedArray& position) {
         for (std::size_t j = a == b ? i + 1 : blocks_[b].begin; j < blocks_[b].begin + blocks_[b].count; ++j) {
           double r2 = 0.0;
           for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double length = box_.length[axis], d = position[axis * slots_ + j] - position[axis * slots_ + i];
-            const double nearest = d - length * std::nearbyint(d / length);
-            r2 += nearest * nearest;
+            const double d = position[axis * slots_ + j] - position[axis * slots_ + i];
+            r2 += std::pow(box_.nearest_image(axis, d), 2);
           }
           const auto bin = static_cast<std::size_t>(std::sqrt(r2) / width_);
           if (bin < bins_) ++counts[bin];

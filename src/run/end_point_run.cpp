@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 
 #include "interaction/lennard_jones.hpp"
 #include "landscape/lennard_jones_landscape.hpp"
@@ -70,17 +71,16 @@ EndPointRunResult run_end_points(const LennardJonesModel& model, const Configura
   bool interrupted = false;
   const bool was_ended = state.generator.ended();
   while (!state.generator.ended() && !interrupted) {
+    // To the end of the chunk, or of the pair, whose time is wanted.
+    const std::size_t pairs_before = state.generator.pairs().size();
     do one_step(state, layout.size());
-    while (!state.generator.ended() && state.generator.verlet().steps() % chunk != 0);
+    while (state.generator.pairs().size() == pairs_before && !state.generator.ended() &&
+           state.generator.verlet().steps() % chunk != 0);
     const auto now = Clock::now();
     state.seconds += std::chrono::duration<double>(now - last).count();
     last = now;
-    if (state.pair_seconds.size() < state.generator.pairs().size()) {
-      double before = 0.0;
-      for (const double s : state.pair_seconds) before += s;
-      state.pair_seconds.resize(state.generator.pairs().size(), 0.0);
-      state.pair_seconds.back() = state.seconds - before;
-    }
+    if (state.generator.pairs().size() > pairs_before)
+      state.pair_seconds.push_back(state.seconds - std::accumulate(state.pair_seconds.begin(), state.pair_seconds.end(), 0.0));
     report(state.generator, options, monitor);
     interrupted = !state.generator.ended() && monitor.stop_requested();
     const bool due = state.generator.verlet().steps() % (chunk * chunks_per_checkpoint) == 0;

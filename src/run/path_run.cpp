@@ -25,30 +25,17 @@ using Clock = std::chrono::steady_clock;
 std::uint64_t steps_per_chunk(std::size_t particles) { return std::clamp<std::uint64_t>(30'000 / (particles + 1), 1, 1000); }
 constexpr std::uint64_t chunks_per_checkpoint = 700;
 
-// The ends in kinematic coordinates, and how to get back.
-struct Metric {
-  AlignedArray scale;  // empty where all masses are equal
-  AlignedArray to_kinematic(AlignedArray r) const {
-    for (std::size_t k = 0; k < scale.size(); ++k) r[k] *= scale[k];
-    return r;
-  }
-  AlignedArray to_positions(AlignedArray q) const {
-    for (std::size_t k = 0; k < scale.size(); ++k) q[k] /= scale[k];
-    return q;
-  }
-};
-
 std::unique_ptr<SoftLandscape> make_landscape(const LennardJonesModel& model, const Box& box, const ParticleLayout& layout, Isa isa,
-                                              const Metric& metric) {
+                                              const KinematicMetric& metric) {
   std::unique_ptr<SoftLandscape> landscape = std::make_unique<LennardJonesLandscape>(model, box, layout, isa);
-  if (metric.scale.empty()) return landscape;
-  return std::make_unique<KinematicLandscape>(std::move(landscape), metric.scale);
+  if (metric.is_euclidean()) return landscape;
+  return std::make_unique<KinematicLandscape>(std::move(landscape), metric);
 }
 
 // A pair as the search sees it, all of it checked.
 struct PreparedPair {
   ParticleLayout layout;
-  Metric metric;
+  KinematicMetric metric;
   AlignedArray start, goal;  // kinematic coordinates
   double distance = 0.0, landscape_energy = 0.0;
 };
@@ -57,10 +44,11 @@ PreparedPair prepare(const LennardJonesModel& model, const ConfigurationPair& pa
                      const PathRunOptions& options, Isa isa) {
   const std::string where = fmt::format("pair {}", number + 1);
   check_end_points(pair, model, where);
-  PreparedPair prepared{ParticleLayout(pair.start.species, model.species.size()), {}, {}, {}};
-  if (!has_equal_masses(model)) prepared.metric.scale = kinematic_scale(model, prepared.layout);
-  prepared.start = prepared.metric.to_kinematic(prepared.layout.to_slots(pair.start.positions));
-  prepared.goal = prepared.metric.to_kinematic(prepared.layout.to_slots(pair.finish.positions));
+  const ParticleLayout layout(pair.start.species, model.species.size());
+  PreparedPair prepared{layout, KinematicMetric(model, layout), layout.to_slots(pair.start.positions),
+                        layout.to_slots(pair.finish.positions)};
+  prepared.metric.to_kinematic(prepared.start);
+  prepared.metric.to_kinematic(prepared.goal);
   const auto landscape = make_landscape(model, pair.start.box, prepared.layout, isa, prepared.metric);
   const double highest_end = std::max(landscape->energy(prepared.start), landscape->energy(prepared.goal));
   prepared.distance = landscape->algebra().distance(prepared.start, prepared.goal);
@@ -102,8 +90,9 @@ PathResult summarise(const Search<Stepper>& search, const ConfigurationPair& pai
   result.distance = prepared.distance;
   result.landscape_energy = prepared.landscape_energy;
   result.frames.push_back(reversed ? pair.finish : pair.start);
-  const auto add = [&](const AlignedArray& q) {
-    result.frames.push_back({pair.start.box, pair.start.species, prepared.layout.to_user(prepared.metric.to_positions(q))});
+  const auto add = [&](AlignedArray q) {
+    prepared.metric.to_positions(q);
+    result.frames.push_back({pair.start.box, pair.start.species, prepared.layout.to_user(q)});
   };
   for (const AlignedArray& q : finder.recorder().frames()) add(q);
   if (finder.outcome() == Outcome::reached)

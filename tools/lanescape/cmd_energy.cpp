@@ -70,9 +70,8 @@ Subcommand add_energy(CLI::App& app) {
             if (state->backend != "simd" && state->backend != "reference")
               throw_bad_input(fmt::format("--backend: '{}' is not allowed: simd or reference", state->backend));
             const Configuration configuration = read_first_frame(state->file, model);
+            check_cutoff(model, configuration.box);
             const bool simd = state->backend == "simd";
-            const LennardJones limits_checked(model, configuration.box, ParticleLayout(configuration.species, model.species.size()),
-                                              kernel_table(isa));
             OutputFolder folder = open_folder(state->common);
             const EnergyResult e = simd ? by_kernels(model, configuration, isa) : by_reference(model, configuration);
             const Json result = to_json(e, configuration, model, simd ? to_string(isa) : "reference", state->forces);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -18,7 +19,7 @@ struct PathState {
   EndPointSetup setup;
   std::vector<std::string> pair_files;
   std::string method = "contour";
-  bool faithful = true, reverse = false, plot = false;
+  bool reverse = false, plot = false;
   double step = 1e-3;
   std::optional<double> landscape_energy;
   std::uint64_t max_steps = FinderOptions{}.max_steps, frames = FinderOptions{}.frames;
@@ -126,57 +127,67 @@ void write_files(OutputFolder& folder, const std::vector<PathResult>& paths, Pat
   }
 }
 
+// What goes into the searches. Read and checked before anything is written; pairs of an interrupted run come from its folder.
+struct PathInput {
+  std::vector<ConfigurationPair> pairs;  // from files
+  Configuration start;                   // without files: what the end points are made from
+  EndPointOptions protocol;
+};
+
+PathInput read_input(const PathState& state, const LennardJonesModel& model) {
+  PathInput input;
+  if (!state.pair_files.empty()) {
+    if (!state.common.resume.empty()) return input;
+    for (const std::string& file : state.pair_files) input.pairs.push_back(read_pair(file, model));
+  } else {
+    input.start = state.setup.start(model, state.common.seed);
+    input.protocol = state.setup.resolve(model, input.start.size(), state.common.seed);
+  }
+  return input;
+}
+
+// The paths found, in JSON; whether all reached their goal.
+bool add_paths(Json& json, const std::vector<PathResult>& paths, PathMethod method) {
+  json["paths"] = Json::array();
+  for (const PathResult& path : paths) json["paths"].push_back(to_json(path, method, path.frames.front().size()));
+  add_mean(json, paths);
+  return std::all_of(paths.begin(), paths.end(), [](const PathResult& path) { return path.outcome == Outcome::reached; });
+}
+
 // `setup_options` are those that end points are made with: not part of a run whose pairs come from files.
 Json run_path(PathState& state, const Options& options, const Options& setup_options, int& status) {
   state.common.check();
   const Isa isa = state.common.resolve_isa();
   const LennardJonesModel model = state.system.resolve();
   const PathRunOptions path_options = state.run_options();
-  if (state.plot && state.common.out.empty() && state.common.resume.empty())
-    throw_bad_input("--plot needs --out: the plots are files");
-
-  // All input is read and checked before anything is written.
-  const bool resumed = !state.common.resume.empty();
-  std::vector<ConfigurationPair> pairs;
-  if (!resumed)
-    for (const std::string& file : state.pair_files) pairs.push_back(read_pair(file, model));
-  const bool from_files = !state.pair_files.empty();
-  Configuration start;
-  EndPointOptions protocol;
-  if (!from_files) {
-    start = state.setup.start(model, state.common.seed);
-    protocol = state.setup.resolve(model, start.size(), state.common.seed);
-  }
-
+  const bool resumed = !state.common.resume.empty(), from_files = !state.pair_files.empty();
+  if (state.plot && state.common.out.empty() && !resumed) throw_bad_input("--plot needs --out: the plots are files");
+  PathInput input = read_input(state, model);
   toml::table resolved = options.resolved();
   if (!from_files)
     for (auto& [key, value] : setup_options.resolved()) resolved.insert_or_assign(key, value);
+
   OutputFolder folder = open_folder(state.common);
   folder.write_run_file("path", resolved);
   Json result;
-  if (from_files && resumed) pairs = read_kept_pairs(folder, model);
-  if (from_files && !resumed)
-    for (std::size_t k = 0; k < pairs.size(); ++k) write_pair(folder, k, pairs[k], model);
   bool ends_made = true;
   if (!from_files) {
-    EndPoints ends = make_end_points(model, start, protocol, isa, folder, state.common);
-    pairs = ends.run.pairs;
+    EndPoints ends = make_end_points(model, input.start, input.protocol, isa, folder, state.common);
+    input.pairs = ends.run.pairs;
     ends_made = ends.reached;
     result["endpoints"] = std::move(ends.json);
+  } else if (resumed) {
+    input.pairs = read_kept_pairs(folder, model);
+  } else {
+    for (std::size_t k = 0; k < input.pairs.size(); ++k) write_pair(folder, k, input.pairs[k], model);
   }
 
   std::vector<PathResult> paths;
   if (ends_made) {
     TerminalMonitor monitor(state.common.quiet);
-    paths = run_paths(model, pairs, path_options, isa, {folder.checkpoints(), resumed}, monitor);
+    paths = run_paths(model, input.pairs, path_options, isa, {folder.checkpoints(), resumed}, monitor);
   }
-  result["paths"] = Json::array();
-  bool all_reached = ends_made;
-  for (const PathResult& path : paths) {
-    result["paths"].push_back(to_json(path, path_options.method, path.frames.front().size()));
-    all_reached = all_reached && path.outcome == Outcome::reached;
-  }
-  add_mean(result, paths);
+  const bool all_reached = add_paths(result, paths, path_options.method) && ends_made;
   result["model"] = model.name;
   result["images"] = to_string(model.images);
   result["isa"] = to_string(isa);
@@ -195,7 +206,10 @@ Subcommand add_path(CLI::App& app) {
   const auto state = std::make_shared<PathState>();
   options->add("--pair", state->pair_files, "files with two frames, the end points; without any, pairs are made as by endpoints");
   options->add("--method", state->method, "contour or escape");
-  options->add_flag("--faithful", state->faithful, "steps exactly as in the source (the default)");
+  // Nothing to choose yet: a name for what is done anyway.
+  sub->add_flag_function(
+         "--faithful", [](std::int64_t) {}, "steps exactly as in the source (the default)")
+      ->disable_flag_override();
   options->add("--step", state->step, "length of a direct step in 3N space [sigma]");
   options->add("--landscape-energy", state->landscape_energy, "E_L [the higher energy of the two end points]");
   options->add_flag("--reverse", state->reverse, "search from the far end too and keep the shorter path");

@@ -15,6 +15,7 @@
 
 #include "configuration/configuration.hpp"
 #include "configuration/lennard_jones_model.hpp"
+#include "core/error.hpp"
 #include "core/run_monitor.hpp"
 #include "dispatch/isa.hpp"
 #include "output_folder.hpp"
@@ -24,7 +25,12 @@ namespace lanescape::program {
 using Json = nlohmann::ordered_json;
 
 // Exit statuses, the contract with other people's scripts.
-enum ExitStatus { done = 0, goal_not_reached = 1, bad_input_status = 2, internal_error = 3 };
+enum ExitStatus {
+  done = 0,
+  goal_not_reached = static_cast<int>(ErrorCode::goal_not_reached),
+  bad_input_status = static_cast<int>(ErrorCode::bad_input),
+  internal_error = static_cast<int>(ErrorCode::internal),
+};
 
 // The options of one subcommand: CLI11 reads them from the command line, and this remembers how to write their final values
 // into the resolved run file, under the same names.
@@ -112,7 +118,7 @@ struct CommonOptions {
   void check() const;
 };
 
-// Which system: model, density, size.
+// Which potential: the model, and how it is cut off.
 struct SystemOptions {
   std::string model = "kob-andersen";
   std::string model_file;

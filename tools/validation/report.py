@@ -6,15 +6,28 @@ import math
 import statistics
 import sys
 from pathlib import Path
+from typing import NamedTuple
 
 TEMPERATURES = [1, 2, 3, 4, 5]
+
+
+class Variant(NamedTuple):
+    label: str
+    particles: int
+    images: str
+    method: str
+    step: float
+    pairs: int
+
+
+# What is run, for the Snakefile too.
 VARIANTS = {
-    "minimum-108": "contour, minimum image, N = 108",
-    "all-108": "contour, all images, N = 108",
-    "escape-108": "escape, minimum image, N = 108",
-    "coarse-108": "contour, step 0.01",
-    "fine-108": "contour, step 0.0001",
-    "all-256": "contour, all images, N = 256",
+    "minimum-108": Variant("contour, minimum image, N = 108", 108, "minimum", "contour", 1e-3, 10),
+    "all-108": Variant("contour, all images, N = 108", 108, "all", "contour", 1e-3, 10),
+    "escape-108": Variant("escape, minimum image, N = 108", 108, "minimum", "escape", 1e-3, 10),
+    "coarse-108": Variant("contour, step 0.01", 108, "minimum", "contour", 1e-2, 10),
+    "fine-108": Variant("contour, step 0.0001", 108, "minimum", "contour", 1e-4, 5),
+    "all-256": Variant("contour, all images, N = 256", 256, "all", "contour", 1e-3, 5),
 }
 # Seconds per path in the source's table 1 (contour, escape).
 SOURCE_SECONDS = {5: (750, 12000), 4: (800, 12000), 3: (850, 12000), 2: (900, 13000), 1: (1100, 15000)}
@@ -38,7 +51,7 @@ def table(folder, title, value, digits):
     print(f"### {title}\n")
     print("| | " + " | ".join(f"T = {t}" for t in TEMPERATURES) + " |")
     print("|---" * (len(TEMPERATURES) + 1) + "|")
-    for variant, label in VARIANTS.items():
+    for variant, (label, *_) in VARIANTS.items():
         cells = [cell([value(p) for p in load(folder, variant, t)], digits) for t in TEMPERATURES]
         print(f"| {label} ({len(load(folder, variant, 1))} pairs) | " + " | ".join(cells) + " |")
     print()
