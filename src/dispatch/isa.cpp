@@ -91,7 +91,7 @@ std::vector<Isa> available_isas() {
   return isas;
 }
 
-Isa choose_isa(std::string_view request) {
+std::optional<Isa> forced_isa(std::string_view request) {
   std::string wanted(request);
   std::string where = "--isa";
   if (wanted.empty() || wanted == "auto") {
@@ -99,8 +99,8 @@ Isa choose_isa(std::string_view request) {
     wanted = from_environment != nullptr ? from_environment : "";
     where = "LANESCAPE_ISA";
   }
+  if (wanted.empty() || wanted == "auto") return std::nullopt;
   const std::vector<Isa> isas = available_isas();
-  if (wanted.empty() || wanted == "auto") return isas.back();
   for (const Isa isa : {Isa::generic, Isa::sse2, Isa::avx2, Isa::avx512})
     if (wanted == to_string(isa)) {
       if (std::find(isas.begin(), isas.end(), isa) != isas.end()) return isa;
@@ -108,6 +108,8 @@ Isa choose_isa(std::string_view request) {
     }
   throw_bad_input(fmt::format("{}: unknown instruction set '{}': available are auto, {}", where, wanted, names_of(isas)));
 }
+
+Isa choose_isa(std::string_view request) { return forced_isa(request).value_or(available_isas().back()); }
 
 const kernels::KernelTable& kernel_table(Isa isa) {
   for (const auto& implementation : implementations())

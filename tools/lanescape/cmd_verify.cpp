@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <optional>
 
 #include "core/error.hpp"
@@ -28,63 +27,69 @@ void add_files(std::vector<LennardJonesCase>& cases, const std::vector<std::stri
     }
 }
 
+struct VerifyState {
+  CommonOptions common;
+  SystemOptions system;
+  std::vector<std::string> files;
+  std::string junit;
+};
+
+// `forced`: whether one instruction set was asked for.
+Json to_json(const std::vector<Deviation>& deviations, const std::vector<Isa>& isas, bool forced) {
+  Json result;
+  result["passed"] = std::all_of(deviations.begin(), deviations.end(), [](const Deviation& d) { return d.passed(); });
+  for (const Deviation& d : deviations)
+    result["kernels"].push_back({{"kernel", d.kernel},
+                                 {"isa", d.isa},
+                                 {"cases", d.cases},
+                                 {"worst", d.worst},
+                                 {"tolerance", d.tolerance},
+                                 {"worst_case", d.worst_case},
+                                 {"passed", d.passed()}});
+  for (const Isa isa : {Isa::sse2, Isa::avx2, Isa::avx512})
+    if (std::find(isas.begin(), isas.end(), isa) == isas.end())
+      result["skipped"].push_back(
+          {{"isa", to_string(isa)}, {"reason", forced ? "not asked for" : "not available on this processor"}});
+  return result;
+}
+
+Json run_verify(VerifyState& state, const Options& options, int& status) {
+  state.common.check();
+  // One instruction set, where a flag or LANESCAPE_ISA names it, or all that are here.
+  const bool forced = forced_isa(state.common.isa).has_value();
+  const std::vector<Isa> isas = forced ? std::vector{state.common.resolve_isa()} : available_isas();
+  std::vector<LennardJonesCase> cases = lennard_jones_cases();
+  add_files(cases, state.files, state.system.resolve());
+  OutputFolder folder = open_folder(state.common);
+  std::optional<TemporaryFile> junit;  // made first: a place that cannot be written to is bad input
+  if (!state.junit.empty()) junit.emplace(state.junit);
+
+  std::vector<Deviation> deviations;
+  for (const Isa isa : isas) {
+    say(state.common, fmt::format("verifying {}", to_string(isa)));
+    for (Deviation& d : verify_kernels(isa, cases)) deviations.push_back(std::move(d));
+  }
+  const Json result = to_json(deviations, isas, forced);
+  if (junit) {
+    junit->write([&](std::ostream& out) { write_junit(out, deviations); });
+    junit->commit();
+  }
+  write_result(folder, "verify", options.resolved(), result);
+  status = result["passed"].get<bool>() ? done : goal_not_reached;
+  return result;
+}
+
 }  // namespace
 
 Subcommand add_verify(CLI::App& app) {
-  struct State {
-    CommonOptions common;
-    SystemOptions system;
-    std::vector<std::string> files;
-    std::string junit;
-  };
   CLI::App* sub = app.add_subcommand("verify", "Every kernel on every instruction set against the scalar reference");
   const auto options = std::make_shared<Options>(*sub);
-  const auto state = std::make_shared<State>();
+  const auto state = std::make_shared<VerifyState>();
   options->add_positional("FILES", state->files, "extended XYZ files to check on besides the built-in cases");
   options->add("--junit", state->junit, "also write the results to this file as JUnit XML");
   state->system.add_to(*options);
   state->common.add_to(*options);
-  return {sub, [=](int& status) {
-            state->common.check();
-            // One named instruction set, by flag or LANESCAPE_ISA, or all that are here.
-            const char* variable = std::getenv("LANESCAPE_ISA");
-            const std::string_view forced = variable != nullptr ? variable : "auto";
-            const bool one = state->common.isa != "auto" || !(forced.empty() || forced == "auto");
-            std::vector<Isa> isas = available_isas();
-            if (one) isas = {state->common.resolve_isa()};
-            std::vector<LennardJonesCase> cases = lennard_jones_cases();
-            add_files(cases, state->files, state->system.resolve());
-            OutputFolder folder = open_folder(state->common);
-            std::optional<TemporaryFile> junit;  // made first: a place that cannot be written to is bad input
-            if (!state->junit.empty()) junit.emplace(state->junit);
-
-            std::vector<Deviation> deviations;
-            for (const Isa isa : isas) {
-              say(state->common, fmt::format("verifying {}", to_string(isa)));
-              for (Deviation& d : verify_kernels(isa, cases)) deviations.push_back(std::move(d));
-            }
-            Json result;
-            result["passed"] = std::all_of(deviations.begin(), deviations.end(), [](const Deviation& d) { return d.passed(); });
-            for (const Deviation& d : deviations)
-              result["kernels"].push_back({{"kernel", d.kernel},
-                                           {"isa", d.isa},
-                                           {"cases", d.cases},
-                                           {"worst", d.worst},
-                                           {"tolerance", d.tolerance},
-                                           {"worst_case", d.worst_case},
-                                           {"passed", d.passed()}});
-            for (const Isa isa : {Isa::sse2, Isa::avx2, Isa::avx512})
-              if (std::find(isas.begin(), isas.end(), isa) == isas.end())
-                result["skipped"].push_back(
-                    {{"isa", to_string(isa)}, {"reason", one ? "not asked for" : "not available on this processor"}});
-            if (junit) {
-              junit->write([&](std::ostream& out) { write_junit(out, deviations); });
-              junit->commit();
-            }
-            write_result(folder, "verify", options->resolved(), result);
-            status = result["passed"].get<bool>() ? done : goal_not_reached;
-            return result;
-          }};
+  return {sub, [=](int& status) { return run_verify(*state, *options, status); }};
 }
 
 }  // namespace lanescape::program
