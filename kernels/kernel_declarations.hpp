@@ -10,12 +10,27 @@ double lj_energy(const LjInput& in) noexcept;
 void lj_gradient(const LjInput& in, double* gradient, LjOutput& out) noexcept;
 void lj_stress(const LjInput& in, double* gradient, LjOutput& out) noexcept;
 
+bool sphere_any_overlap(const SphereInput& in) noexcept;
+std::size_t sphere_pairs_within(const SphereInput& in, double reach, SpherePair* out, std::size_t capacity) noexcept;
+double sphere_smallest_gap(const SphereInput& in) noexcept;
+bool sphere_list_any_overlap(const SphereList& list, const double* positions, std::size_t slots) noexcept;
+std::size_t sphere_list_contacts(const SphereList& list, const double* positions, std::size_t slots,
+                                 const SphereContacts& out) noexcept;
+void sphere_contact_forces(const SphereList& list, const SphereContacts& contacts, std::size_t count, ContactPotential potential,
+                           double* force, std::size_t slots) noexcept;
+std::size_t sphere_avoidance_trial(double* trial, const double* position, double* sum, double* force, double step,
+                                   std::size_t slots) noexcept;
+CollisionEvent sphere_first_collision(const CollisionQuery& query) noexcept;
+void calendar_update(const CalendarView& calendar, std::size_t event, double time) noexcept;
+
 double dot(const double* a, const double* b, std::size_t n) noexcept;
 double distance_squared(const double* a, const double* b, std::size_t n) noexcept;
 void difference(double* out, const double* a, const double* b, std::size_t n) noexcept;
 void combine(double* out, const double* x, double a, const double* u, double b, const double* v, std::size_t n) noexcept;
 void axpy(double* out, const double* x, double a, const double* u, std::size_t n) noexcept;
 DisplacementMoments displacement_moments(const double* a, const double* b, std::size_t slots) noexcept;
+
+double largest_displacement_squared(const double* a, const double* b, std::size_t slots) noexcept;
 
 double peak_rounds(std::size_t rounds, double* sink) noexcept;
 

@@ -14,6 +14,26 @@ struct KernelTable {
   void (*lj_gradient)(const LjInput&, double* gradient, LjOutput&) noexcept;
   void (*lj_stress)(const LjInput&, double* gradient, LjOutput&) noexcept;
 
+  // Hard spheres over all pairs: whether any overlap; the pairs with r < s_ij + reach (their number, which may exceed the
+  // capacity: then only so many are written); the smallest r - s_ij (infinity where there is no pair).
+  bool (*sphere_any_overlap)(const SphereInput&) noexcept;
+  std::size_t (*sphere_pairs_within)(const SphereInput&, double reach, SpherePair* out, std::size_t capacity) noexcept;
+  double (*sphere_smallest_gap)(const SphereInput&) noexcept;
+  // The same over a list: whether any overlap, and which; their number.
+  bool (*sphere_list_any_overlap)(const SphereList&, const double* positions, std::size_t slots) noexcept;
+  std::size_t (*sphere_list_contacts)(const SphereList&, const double* positions, std::size_t slots,
+                                      const SphereContacts&) noexcept;
+  // Adds the fictitious forces of `count` overlapping pairs to `force` (3 x slots).
+  void (*sphere_contact_forces)(const SphereList&, const SphereContacts&, std::size_t count, ContactPotential, double* force,
+                                std::size_t slots) noexcept;
+  // sum += force/|force|, then trial = position + step sum_j/|sum_j| particle by particle, and force = 0; the number of particles
+  // that move.
+  std::size_t (*sphere_avoidance_trial)(double* trial, const double* position, double* sum, double* force, double step,
+                                        std::size_t slots) noexcept;
+  // Event-driven dynamics.
+  CollisionEvent (*sphere_first_collision)(const CollisionQuery&) noexcept;
+  void (*calendar_update)(const CalendarView&, std::size_t event, double time) noexcept;
+
   // Vector algebra in one fixed order of summation.
   double (*dot)(const double* a, const double* b, std::size_t n) noexcept;
   double (*distance_squared)(const double* a, const double* b, std::size_t n) noexcept;
@@ -24,6 +44,9 @@ struct KernelTable {
   void (*axpy)(double* out, const double* x, double a, const double* u, std::size_t n) noexcept;
   // Moments of b - a, arrays of 3 x slots.
   DisplacementMoments (*displacement_moments)(const double* a, const double* b, std::size_t slots) noexcept;
+
+  // The largest |b_j - a_j|^2 over particles, arrays of 3 x slots.
+  double (*largest_displacement_squared)(const double* a, const double* b, std::size_t slots) noexcept;
 
   // Runs `rounds` rounds of independent fused multiply-adds (products and sums where there is no fma); returns how many
   // floating-point operations that was. Measures the machine's limit for the benchmarks.

@@ -39,8 +39,11 @@ inline Vector absolute(Vector v) noexcept { return xsimd::abs(v); }
 inline Vector maximum(Vector a, Vector b) noexcept { return xsimd::max(a, b); }
 inline Vector minimum(Vector a, Vector b) noexcept { return xsimd::min(a, b); }
 inline Mask less(Vector a, Vector b) noexcept { return a < b; }
+inline Mask equal(Vector a, Vector b) noexcept { return a == b; }
 inline Mask both(Mask a, Mask b) noexcept { return a & b; }
+inline Mask either(Mask a, Mask b) noexcept { return a | b; }
 inline bool any(Mask m) noexcept { return xsimd::any(m); }
+inline Vector square_root(Vector v) noexcept { return xsimd::sqrt(v); }
 
 #else  // the portable leg: four doubles that the compiler may or may not put into vector registers
 
@@ -97,13 +100,22 @@ inline Mask lanewise_mask(F f) noexcept {
 inline Mask less(Vector a, Vector b) noexcept {
   return lanewise_mask([&](std::size_t k) { return a.lane[k] < b.lane[k]; });
 }
+inline Mask equal(Vector a, Vector b) noexcept {
+  return lanewise_mask([&](std::size_t k) { return a.lane[k] == b.lane[k]; });
+}
 inline Mask both(Mask a, Mask b) noexcept {
   return lanewise_mask([&](std::size_t k) { return a.lane[k] && b.lane[k]; });
+}
+inline Mask either(Mask a, Mask b) noexcept {
+  return lanewise_mask([&](std::size_t k) { return a.lane[k] || b.lane[k]; });
 }
 inline bool any(Mask m) noexcept {
   bool r = false;
   for (std::size_t k = 0; k < lanes; ++k) r = r || m.lane[k];
   return r;
+}
+inline Vector square_root(Vector v) noexcept {
+  return lanewise([&](std::size_t k) { return std::sqrt(v.lane[k]); });
 }
 
 #endif
@@ -180,6 +192,133 @@ inline Vector count_up(Vector sum, Mask m) noexcept {
 #endif
 }
 
+// Bit k of the result is lane k of the mask.
+inline unsigned bits(Mask m) noexcept {
+#if defined(LANESCAPE_ISA_AVX512)
+  return _cvtmask8_u32(m);
+#elif defined(LANESCAPE_ISA_AVX2)
+  return static_cast<unsigned>(_mm256_movemask_pd(m));
+#elif defined(LANESCAPE_ISA_SSE2)
+  return static_cast<unsigned>(_mm_movemask_pd(m));
+#else
+  unsigned r = 0;
+  for (std::size_t k = 0; k < lanes; ++k) r |= (m.lane[k] ? 1U : 0U) << k;
+  return r;
+#endif
+}
+
+// Writes first + lane for every lane whose bit is set, one after the other from p on; up to a whole vector is overwritten. Their
+// number.
+inline std::size_t store_set_lanes(std::int32_t* p, unsigned mask, std::int32_t first) noexcept {
+#if defined(LANESCAPE_ISA_AVX512)
+  const __m256i numbers = _mm256_add_epi32(_mm256_set1_epi32(first), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), _mm256_maskz_compress_epi32(static_cast<__mmask8>(mask), numbers));
+  return static_cast<std::size_t>(__builtin_popcount(mask));
+#else
+  // Every lane is written; only those that count move the end on.
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < lanes; ++k) {
+    p[count] = first + static_cast<std::int32_t>(k);
+    count += mask >> k & 1U;
+  }
+  return count;
+#endif
+}
+
+// The nearest whole number, ties to even. |v| < 2^51.
+inline Vector nearest_whole(Vector v) noexcept {
+#if defined(LANESCAPE_ISA_AVX512)
+  return _mm512_roundscale_pd(v, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+#elif defined(LANESCAPE_ISA_AVX2)
+  return _mm256_round_pd(v, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+#elif defined(LANESCAPE_ISA_SSE2)
+  const Vector shifter(6755399441055744.0);
+  return (v + shifter) - shifter;
+#else
+  return lanewise([&](std::size_t k) { return std::nearbyint(v.lane[k]); });
+#endif
+}
+
+// base[index[0]], base[index[1]], ... One by one: Zen 4's gather instruction is slower.
+inline Vector gather(const double* base, const std::int32_t* index) noexcept {
+#if defined(LANESCAPE_ISA_AVX512)
+  return _mm512_set_pd(base[index[7]], base[index[6]], base[index[5]], base[index[4]], base[index[3]], base[index[2]],
+                       base[index[1]], base[index[0]]);
+#elif defined(LANESCAPE_ISA_AVX2)
+  return _mm256_set_pd(base[index[3]], base[index[2]], base[index[1]], base[index[0]]);
+#elif defined(LANESCAPE_ISA_SSE2)
+  return _mm_set_pd(base[index[1]], base[index[0]]);
+#else
+  return lanewise([&](std::size_t k) { return base[index[k]]; });
+#endif
+}
+
+// Eight fields of `lanes` records of eight doubles each, 64-byte aligned: field f of record index[k] goes to lane k of out[f].
+inline void gather_records(const double* base, const std::int32_t* index, Vector* out) noexcept {
+#if defined(LANESCAPE_ISA_AVX512)
+  __m512d r[8], s[8];
+#pragma GCC unroll 8
+  for (int k = 0; k < 8; ++k) r[k] = _mm512_load_pd(base + 8 * static_cast<std::ptrdiff_t>(index[k]));
+#pragma GCC unroll 4
+  for (int k = 0; k < 4; ++k) {  // s[2k], s[2k + 1]: even and odd fields of records 2k and 2k + 1
+    s[2 * k] = _mm512_unpacklo_pd(r[2 * k], r[2 * k + 1]);
+    s[2 * k + 1] = _mm512_unpackhi_pd(r[2 * k], r[2 * k + 1]);
+  }
+#pragma GCC unroll 2
+  for (int odd = 0; odd < 2; ++odd) {
+    const __m512d low = _mm512_shuffle_f64x2(s[odd], s[2 + odd], 0x88), high = _mm512_shuffle_f64x2(s[4 + odd], s[6 + odd], 0x88);
+    const __m512d low2 = _mm512_shuffle_f64x2(s[odd], s[2 + odd], 0xdd), high2 = _mm512_shuffle_f64x2(s[4 + odd], s[6 + odd], 0xdd);
+    out[0 + odd] = _mm512_shuffle_f64x2(low, high, 0x88);
+    out[4 + odd] = _mm512_shuffle_f64x2(low, high, 0xdd);
+    out[2 + odd] = _mm512_shuffle_f64x2(low2, high2, 0x88);
+    out[6 + odd] = _mm512_shuffle_f64x2(low2, high2, 0xdd);
+  }
+#elif defined(LANESCAPE_ISA_AVX2)
+#pragma GCC unroll 2
+  for (int half = 0; half < 2; ++half) {
+    const auto row = [&](int k) { return _mm256_load_pd(base + 8 * static_cast<std::ptrdiff_t>(index[k]) + 4 * half); };
+    const __m256d r0 = row(0), r1 = row(1), r2 = row(2), r3 = row(3);
+    const __m256d a = _mm256_unpacklo_pd(r0, r1), b = _mm256_unpackhi_pd(r0, r1);
+    const __m256d c = _mm256_unpacklo_pd(r2, r3), d = _mm256_unpackhi_pd(r2, r3);
+    out[4 * half + 0] = _mm256_permute2f128_pd(a, c, 0x20);
+    out[4 * half + 1] = _mm256_permute2f128_pd(b, d, 0x20);
+    out[4 * half + 2] = _mm256_permute2f128_pd(a, c, 0x31);
+    out[4 * half + 3] = _mm256_permute2f128_pd(b, d, 0x31);
+  }
+#elif defined(LANESCAPE_ISA_SSE2)
+  const double *first = base + 8 * static_cast<std::ptrdiff_t>(index[0]),
+               *second = base + 8 * static_cast<std::ptrdiff_t>(index[1]);
+  for (int pair = 0; pair < 4; ++pair) {
+    const __m128d a = _mm_load_pd(first + 2 * pair), b = _mm_load_pd(second + 2 * pair);
+    out[2 * pair] = _mm_unpacklo_pd(a, b);
+    out[2 * pair + 1] = _mm_unpackhi_pd(a, b);
+  }
+#else
+  for (std::size_t f = 0; f < 8; ++f)
+    out[f] =
+        lanewise([&](std::size_t k) { return base[8 * static_cast<std::ptrdiff_t>(index[k]) + static_cast<std::ptrdiff_t>(f)]; });
+#endif
+}
+
+// first, first + 1, first + 2, ...
+inline Vector count_from(double first) noexcept {
+  alignas(64) static constexpr double whole[] = {0, 1, 2, 3, 4, 5, 6, 7};
+  return load(whole) + broadcast(first);
+}
+
+inline double largest_lane(Vector v) noexcept {
+#if defined(LANESCAPE_ISA_AVX512)
+  return _mm512_reduce_max_pd(v);
+#else
+  alignas(64) double lane[lanes];
+  store(lane, v);
+  double greatest = lane[0];
+  for (std::size_t k = 1; k < lanes; ++k) greatest = greatest < lane[k] ? lane[k] : greatest;
+  return greatest;
+#endif
+}
+inline double smallest_lane(Vector v) noexcept { return -largest_lane(broadcast(0.0) - v); }
+
 // The magnitude of a with the sign of s.
 inline Vector with_sign_of(Vector a, Vector s) noexcept {
 #if defined(LANESCAPE_X86)
@@ -248,6 +387,110 @@ inline void add_lane_sums(double* out, Vector a, Vector b, Vector c, Vector d) n
   out[1] += sum_lanes(b);
   out[2] += sum_lanes(c);
   out[3] += sum_lanes(d);
+#endif
+}
+
+// Single precision, for filters whose verdicts are checked again in double: coordinates as 32-bit fractions of the box, whose
+// differences wrap around as the box does.
+#if defined(LANESCAPE_ISA_AVX512)
+
+using FloatVector = __m512;
+inline constexpr std::size_t float_lanes = 16;
+inline FloatVector load(const float* p) noexcept { return _mm512_load_ps(p); }
+inline FloatVector broadcast_float(float s) noexcept { return _mm512_set1_ps(s); }
+inline FloatVector multiply(FloatVector a, FloatVector b) noexcept { return _mm512_mul_ps(a, b); }
+inline FloatVector add(FloatVector a, FloatVector b) noexcept { return _mm512_add_ps(a, b); }
+inline FloatVector square_plus(FloatVector a, FloatVector c) noexcept { return _mm512_fmadd_ps(a, a, c); }
+// p[k] - s in wrapping 32-bit arithmetic, as floating-point numbers.
+inline FloatVector wrapped_difference(const std::int32_t* p, std::int32_t s) noexcept {
+  return _mm512_cvtepi32_ps(_mm512_sub_epi32(_mm512_load_si512(p), _mm512_set1_epi32(s)));
+}
+inline std::uint32_t bits_less(FloatVector a, FloatVector b) noexcept { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
+
+#elif defined(LANESCAPE_ISA_AVX2)
+
+using FloatVector = __m256;
+inline constexpr std::size_t float_lanes = 8;
+inline FloatVector load(const float* p) noexcept { return _mm256_load_ps(p); }
+inline FloatVector broadcast_float(float s) noexcept { return _mm256_set1_ps(s); }
+inline FloatVector multiply(FloatVector a, FloatVector b) noexcept { return _mm256_mul_ps(a, b); }
+inline FloatVector add(FloatVector a, FloatVector b) noexcept { return _mm256_add_ps(a, b); }
+inline FloatVector square_plus(FloatVector a, FloatVector c) noexcept { return _mm256_fmadd_ps(a, a, c); }
+inline FloatVector wrapped_difference(const std::int32_t* p, std::int32_t s) noexcept {
+  return _mm256_cvtepi32_ps(_mm256_sub_epi32(_mm256_load_si256(reinterpret_cast<const __m256i*>(p)), _mm256_set1_epi32(s)));
+}
+inline std::uint32_t bits_less(FloatVector a, FloatVector b) noexcept {
+  return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LT_OQ)));
+}
+
+#elif defined(LANESCAPE_ISA_SSE2)
+
+using FloatVector = __m128;
+inline constexpr std::size_t float_lanes = 4;
+inline FloatVector load(const float* p) noexcept { return _mm_load_ps(p); }
+inline FloatVector broadcast_float(float s) noexcept { return _mm_set1_ps(s); }
+inline FloatVector multiply(FloatVector a, FloatVector b) noexcept { return _mm_mul_ps(a, b); }
+inline FloatVector add(FloatVector a, FloatVector b) noexcept { return _mm_add_ps(a, b); }
+inline FloatVector square_plus(FloatVector a, FloatVector c) noexcept { return _mm_add_ps(_mm_mul_ps(a, a), c); }
+inline FloatVector wrapped_difference(const std::int32_t* p, std::int32_t s) noexcept {
+  return _mm_cvtepi32_ps(_mm_sub_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(p)), _mm_set1_epi32(s)));
+}
+inline std::uint32_t bits_less(FloatVector a, FloatVector b) noexcept {
+  return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmplt_ps(a, b)));
+}
+
+#else
+
+inline constexpr std::size_t float_lanes = 8;
+struct alignas(32) FloatVector {
+  float lane[float_lanes];
+};
+template <class F>
+inline FloatVector float_lanewise(F f) noexcept {
+  FloatVector r;
+  for (std::size_t k = 0; k < float_lanes; ++k) r.lane[k] = f(k);
+  return r;
+}
+inline FloatVector load(const float* p) noexcept {
+  return float_lanewise([&](std::size_t k) { return p[k]; });
+}
+inline FloatVector broadcast_float(float s) noexcept {
+  return float_lanewise([&](std::size_t) { return s; });
+}
+inline FloatVector multiply(FloatVector a, FloatVector b) noexcept {
+  return float_lanewise([&](std::size_t k) { return a.lane[k] * b.lane[k]; });
+}
+inline FloatVector add(FloatVector a, FloatVector b) noexcept {
+  return float_lanewise([&](std::size_t k) { return a.lane[k] + b.lane[k]; });
+}
+inline FloatVector square_plus(FloatVector a, FloatVector c) noexcept {
+  return float_lanewise([&](std::size_t k) { return a.lane[k] * a.lane[k] + c.lane[k]; });
+}
+inline FloatVector wrapped_difference(const std::int32_t* p, std::int32_t s) noexcept {
+  return float_lanewise([&](std::size_t k) {
+    return static_cast<float>(static_cast<std::int32_t>(static_cast<std::uint32_t>(p[k]) - static_cast<std::uint32_t>(s)));
+  });
+}
+inline std::uint32_t bits_less(FloatVector a, FloatVector b) noexcept {
+  std::uint32_t r = 0;
+  for (std::size_t k = 0; k < float_lanes; ++k) r |= (a.lane[k] < b.lane[k] ? 1U : 0U) << k;
+  return r;
+}
+
+#endif
+
+// Whole boxes left out, what is left of a coordinate in box lengths as a 32-bit fraction; one half wraps to minus one half.
+inline void store_fractions(std::int32_t* out, Vector box_lengths) noexcept {
+  const Vector scaled = reduce_to_nearest(box_lengths) * broadcast(4294967296.0);
+#if defined(LANESCAPE_ISA_AVX512)
+  _mm256_store_si256(reinterpret_cast<__m256i*>(out), _mm512_cvtpd_epi32(scaled));
+#elif defined(LANESCAPE_ISA_AVX2)
+  _mm_store_si128(reinterpret_cast<__m128i*>(out), _mm256_cvtpd_epi32(scaled));
+#elif defined(LANESCAPE_ISA_SSE2)
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(out), _mm_cvtpd_epi32(scaled));
+#else
+  for (std::size_t k = 0; k < lanes; ++k)
+    out[k] = static_cast<std::int32_t>(static_cast<std::uint32_t>(static_cast<std::int64_t>(std::nearbyint(scaled.lane[k]))));
 #endif
 }
 

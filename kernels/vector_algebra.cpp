@@ -62,4 +62,15 @@ DisplacementMoments displacement_moments(const double* a, const double* b, std::
   return {sum_lanes(second), sum_lanes(fourth)};
 }
 
+double largest_displacement_squared(const double* a, const double* b, std::size_t slots) noexcept {
+  Vector largest = broadcast(0.0);
+  for (std::size_t i = 0; i < slots; i += lanes) {
+    const Vector dx = load(b + i) - load(a + i);
+    const Vector dy = load(b + slots + i) - load(a + slots + i);
+    const Vector dz = load(b + 2 * slots + i) - load(a + 2 * slots + i);
+    largest = maximum(largest, multiply_add(dz, dz, multiply_add(dy, dy, dx * dx)));
+  }
+  return largest_lane(largest);
+}
+
 }  // namespace lanescape::kernels::LANESCAPE_ISA

@@ -62,4 +62,73 @@ struct DisplacementMoments {
   double fourth;
 };
 
+// Hard spheres in a periodic box. Two overlap if r^2 < (radius_i + radius_j)^2 with r^2 = (dx dx + dy dy) + dz dz of the nearest
+// image, every product and sum rounded: each instruction set and the reference take the same decisions to the bit.
+struct SphereInput {
+  const double* positions;  // 3 x slots [sigma]; may be unwrapped
+  const double* radii;      // slots [sigma]; NaN for padding, which then never overlaps
+  std::size_t slots;        // a multiple of slot_padding
+  double box[3];            // edge lengths [sigma], each above twice the largest reach
+  std::int32_t* fractions;  // scratch: 3 x float_slots
+  float* reaches;           // scratch: float_slots
+  std::size_t float_slots;  // slots rounded up to 16
+};
+
+struct SpherePair {
+  std::int32_t first, second;  // slots, first < second
+};
+
+// Pairs that may come to overlap, with the image in which they do; arrays of a multiple of slot_padding.
+struct SphereList {
+  const std::int32_t *first, *second;         // slots; any for padding
+  const double *shift_x, *shift_y, *shift_z;  // whole boxes to take off x_second - x_first [sigma]
+  const double* contact;                      // s_ij = radius_i + radius_j [sigma]; NaN for padding
+  std::size_t count;                          // padding included
+};
+
+// Which pairs of a list overlap: their places in it, and of every pair in the list, overlapping or not, the separation
+// r_second - r_first and its square. Packing these would cost more than it saves.
+struct SphereContacts {
+  std::int32_t* places;                 // room for the list's count and 2 slot_padding more
+  double *x, *y, *z, *squared;          // the list's count
+  double *force_x, *force_y, *force_z;  // scratch for forces: the list's count
+};
+
+// Fictitious potential between overlapping spheres, whose forces say where to go (docs/ARCHITECTURE.md).
+enum class ContactPotential : std::uint32_t { harmonic, linear, cubic };
+
+// A sphere in free flight: where it was at its own time. Eight doubles, one cache line.
+struct alignas(64) FlyingSphere {
+  double x, y, z;     // [sigma]
+  double vx, vy, vz;  // [sigma / time]
+  double time;        // of the position
+  double radius;      // at time 0 [sigma]
+};
+
+// The first collision of one sphere with its neighbours after `now`.
+struct CollisionQuery {
+  const FlyingSphere* spheres;
+  const std::int32_t* neighbours;  // room for a multiple of slot_padding; valid indices up to there
+  std::size_t count;
+  std::size_t self;
+  double now;
+  double growth;  // radii are radius (1 + growth time)
+  double box[3];
+};
+
+struct CollisionEvent {
+  double time;           // infinity if there is none
+  std::int32_t partner;  // -1 if there is none
+};
+
+// A tournament over event times: level 0 holds the times themselves, each later one the least of every block of calendar_block
+// entries and which event it is. Entries beyond the last are infinite. The top level has one block.
+inline constexpr std::size_t calendar_block = 16;
+inline constexpr std::size_t calendar_levels = 8;
+struct CalendarView {
+  double* times[calendar_levels];
+  std::int32_t* winners[calendar_levels];  // from level 1 on
+  std::size_t levels;                      // at least 2; the last has one entry
+};
+
 }  // namespace lanescape::kernels

@@ -2,49 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <stdexcept>
+
+#include "reference/path_sum.hpp"
 
 namespace lanescape::reference {
 namespace {
 
-using Point = std::vector<double>;
-
-double dot(const Point& a, const Point& b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
-}
-
-/// a + factor * b
-Point combine(const Point& a, double factor, const Point& b) {
-  Point result(a.size());
-  for (std::size_t i = 0; i < a.size(); ++i) result[i] = a[i] + factor * b[i];
-  return result;
-}
-
-/// (sum_j dr_j^2)^2 / sum_j dr_j^4 over particles j, [G] Eq. 4.17; of a unit vector, so that nothing underflows
-double participation_number(const Point& step) {
-  double second = 0.0;
-  double fourth = 0.0;
-  for (std::size_t j = 0; j < step.size(); j += 3) {
-    const double squared = step[j] * step[j] + step[j + 1] * step[j + 1] + step[j + 2] * step[j + 2];
-    second += squared;
-    fourth += squared * squared;
-  }
-  return second * second / fourth;
-}
-
 class Finder {
-public:
+ public:
   Finder(const Point& start, const Point& finish, const Energy& energy, const Gradient& gradient, Method method,
          const GeodesicOptions& options)
       : start_(start), finish_(finish), energy_(energy), gradient_(gradient), method_(method), options_(options) {}
 
   Geodesic run() {
-    path_.landscape_energy =
-        options_.landscape_energy ? *options_.landscape_energy : std::max(energy_(start_), energy_(finish_));
+    path_.landscape_energy = options_.landscape_energy ? *options_.landscape_energy : std::max(energy_(start_), energy_(finish_));
     allowed_ = path_.landscape_energy + (method_ == Method::escape ? options_.energy_tolerance : 0.0);
     path_.end = start_;
     double nearest = std::numeric_limits<double>::infinity();
@@ -59,8 +32,7 @@ public:
       } else if (++since_nearest >= options_.patience) {
         return stop(Outcome::stalled, "no progress towards the end point");
       }
-      if (path_.direct_steps + path_.contour_steps + path_.escape_steps >= options_.max_steps)
-        return stop(Outcome::step_limit, "");
+      if (path_.direct_steps + path_.contour_steps + path_.escape_steps >= options_.max_steps) return stop(Outcome::step_limit, "");
 
       const Point d = combine(Point(to_finish.size(), 0.0), 1.0 / distance, to_finish);
       Point trial = combine(path_.end, options_.step, d);  // [G] Eq. 3.10, [C] Eq. 1
@@ -78,7 +50,7 @@ public:
     return stop(Outcome::reached, "");
   }
 
-private:
+ private:
   /// [C] Eqs. 4-7, 11-15: along the level set of V through the retreat point. Null, or why there is no step.
   const char* contour(const Point& d, Point& trial) {
     Point n(d.size());
@@ -112,18 +84,15 @@ private:
   }
 
   void advance(const Point& next) {
-    const Point step = combine(next, -1.0, path_.end);
-    const double length = std::sqrt(dot(step, step));
+    sum_.add(combine(next, -1.0, path_.end));
     path_.end = next;
-    if (length == 0.0) return;
-    path_.length += length;
-    weighted_participation_ += length * participation_number(combine(Point(step.size(), 0.0), 1.0 / length, step));
   }
 
   Geodesic stop(Outcome outcome, const char* reason) {
     path_.outcome = outcome;
     path_.reason = reason;
-    if (path_.length > 0.0) path_.participation = weighted_participation_ / path_.length;
+    path_.length = sum_.length();
+    path_.participation = sum_.participation();
     return path_;
   }
 
@@ -135,7 +104,7 @@ private:
   GeodesicOptions options_;
   Geodesic path_;
   double allowed_ = 0.0;  // [epsilon], a configuration up to this energy is accepted
-  double weighted_participation_ = 0.0;
+  PathSum sum_;
 };
 
 }  // namespace

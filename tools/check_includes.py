@@ -26,7 +26,8 @@ STAGES = {
     "api": 10, "capi": 10,
 }  # fmt: skip
 ABOVE_THE_API = {"capi"}  # sees the installed headers although it has their number
-SEES_KERNEL_TABLE = {"dispatch", "neighbour", "interaction", "verification"}
+# dynamics: an event costs less than a virtual call would be worth, and event-driven dynamics is nothing but its kernels.
+SEES_KERNEL_TABLE = {"dispatch", "neighbour", "interaction", "dynamics", "verification"}
 SEES_REFERENCE = {"verification"}
 # The program starts runs, reads files and verifies; landscapes, dynamics, steppers and paths reach it through run/ only.
 PROGRAM_STAGES = {"core", "configuration", "io", "dispatch", "interaction", "run", "verification"}
@@ -77,6 +78,8 @@ def refuse_outside(relative, name):
         return f"only {VECTOR_LAYER} sees xsimd and intrinsics"
     if name.split("/")[0] in ("Eigen", "unsupported") and not relative.startswith(EIGEN_USERS):
         return "Eigen is allowed in " + ", ".join(f"{user}*" for user in EIGEN_USERS)
+    if name.startswith("kissfft") and not relative.startswith("src/observables/"):
+        return "kissfft is allowed in src/observables/"
     return None
 
 

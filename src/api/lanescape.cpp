@@ -34,7 +34,7 @@ struct LennardJonesPotential::Implementation {
 
 LennardJonesPotential::LennardJonesPotential(std::span<const int> species, const std::array<double, 3>& box,
                                              const Options& options) {
-  LennardJonesModel model = named_model(options.model);
+  LennardJonesModel model = named_lennard_jones_model(options.model);
   model.cutoff = options.cutoff;
   model.truncation = parse_truncation(options.truncation);
   model.images = parse_image_rule(options.images);

@@ -12,6 +12,7 @@ struct Configuration {
   Box box;
   std::vector<int> species;       // N indices into the model's species
   std::vector<double> positions;  // 3N: x0 y0 z0 x1 ... [sigma]
+  std::vector<double> radii{};    // N, hard spheres only, else empty [sigma]
 
   std::size_t size() const { return species.size(); }
 };

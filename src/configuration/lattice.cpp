@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -14,7 +16,10 @@ namespace lanescape {
 namespace {
 
 constexpr std::size_t max_particles = 100'000;  // of what all-pairs evaluation can be asked to do
+constexpr std::size_t max_spheres = 1'000'000;
 constexpr double max_density = 100.0;
+constexpr double max_packing_fraction = 0.74;  // pi/(3 sqrt 2) = 0.7405 is close packing
+constexpr double rounding_margin = 1e-12;
 
 // Fisher and Yates, from the end.
 template <class T>
@@ -23,7 +28,7 @@ void shuffle(std::vector<T>& items, const CounterRandom& random) {
     std::swap(items[i - 1], items[random.below(static_cast<std::uint32_t>(i), 0, static_cast<std::uint32_t>(i))]);
 }
 
-std::vector<int> species_in_proportion(const LennardJonesModel& model, std::size_t particles) {
+std::vector<int> species_in_proportion(const Mixture& model, std::size_t particles) {
   std::vector<int> species(particles, 0);
   std::size_t next = particles;
   for (std::size_t s = 1; s < model.species.size(); ++s) {
@@ -35,35 +40,159 @@ std::vector<int> species_in_proportion(const LennardJonesModel& model, std::size
   return species;
 }
 
-}  // namespace
+void check_particles(std::size_t particles, std::size_t most) {
+  if (particles == 0 || particles > most)
+    throw_bad_input(fmt::format("{} particles are not allowed: from 1 to {}", particles, most));
+}
 
-Configuration fcc_start(const LennardJonesModel& model, std::size_t particles, double density, std::uint64_t seed) {
-  if (particles == 0 || particles > max_particles)
-    throw_bad_input(fmt::format("{} particles are not allowed: from 1 to {}", particles, max_particles));
-  if (!(density > 0.0 && density <= max_density))
-    throw_bad_input(fmt::format("density {} is not allowed: above 0 and at most {}", density, max_density));
+// The occupied sites of n^3 cubic cells of four sites each.
+struct Lattice {
+  std::size_t cells = 1;           // n, along each edge
+  std::vector<std::size_t> sites;  // of each particle
 
-  std::size_t cells = 1;
-  while (4 * cells * cells * cells < particles) ++cells;
-  std::vector<std::size_t> sites(4 * cells * cells * cells);
-  std::iota(sites.begin(), sites.end(), std::size_t{0});
-  if (sites.size() > particles) {
+  Lattice(std::size_t particles, std::uint64_t seed) {
+    while (4 * cells * cells * cells < particles) ++cells;
+    sites.resize(4 * cells * cells * cells);
+    std::iota(sites.begin(), sites.end(), std::size_t{0});
+    if (sites.size() == particles) return;
     shuffle(sites, CounterRandom(seed, RandomStream::sites));
     sites.resize(particles);
   }
-  const double length = std::cbrt(static_cast<double>(particles) / density);
-  const double cell = length / static_cast<double>(cells);
-  constexpr std::array<std::array<double, 3>, 4> basis = {{{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}}};
 
-  Configuration start{Box{{length, length, length}}, species_in_proportion(model, particles), {}};
-  shuffle(start.species, CounterRandom(seed, RandomStream::species));
-  for (const std::size_t site : sites) {
+  // In half edges of a cell, where sites are the triples of integers with an even sum.
+  std::array<std::size_t, 3> half_edges(std::size_t site) const {
+    constexpr std::array<std::array<std::size_t, 3>, 4> basis = {{{0, 0, 0}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}}};
     const std::size_t corner = site / 4;
-    const std::array<std::size_t, 3> at = {corner % cells, corner / cells % cells, corner / (cells * cells)};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      start.positions.push_back(cell * (static_cast<double>(at[axis]) + basis[site % 4][axis]));
+    const auto& b = basis[site % 4];
+    return {2 * (corner % cells) + b[0], 2 * (corner / cells % cells) + b[1], 2 * (corner / (cells * cells)) + b[2]};
   }
+  std::vector<double> positions(double length) const {
+    const double cell = length / static_cast<double>(cells);
+    std::vector<double> result;
+    result.reserve(3 * sites.size());
+    for (const std::size_t site : sites)
+      for (const std::size_t h : half_edges(site)) result.push_back(cell * (0.5 * static_cast<double>(h)));
+    return result;
+  }
+};
+
+// Which sphere is where; its box is still open.
+struct Packing {
+  Lattice lattice;
+  std::vector<int> species;   // of each particle
+  std::vector<double> radii;  // of each particle
+  double volume = 0.0;        // of all spheres [sigma^3]
+
+  Packing(const HardSphereModel& model, std::size_t particles, Arrangement arrangement, std::uint64_t seed)
+      : lattice(particles, seed), species(species_in_proportion(model, particles)) {
+    // By species, so that the box does not depend on the order of particles.
+    for (std::size_t s = 0; s < model.species.size(); ++s)
+      volume += static_cast<double>(std::count(species.begin(), species.end(), static_cast<int>(s))) * std::numbers::pi / 6.0 *
+                std::pow(model.diameters[s], 3);
+    if (arrangement == Arrangement::random) {
+      shuffle(species, CounterRandom(seed, RandomStream::species));
+    } else {
+      const auto diameter = [&](int s) { return model.diameters[static_cast<std::size_t>(s)]; };
+      std::stable_sort(species.begin(), species.end(), [&](int a, int b) { return diameter(a) > diameter(b); });
+      std::sort(lattice.sites.begin(), lattice.sites.end(), [&](std::size_t a, std::size_t b) {
+        return std::pair(lattice.half_edges(a)[0], a) < std::pair(lattice.half_edges(b)[0], b);
+      });
+    }
+    radii = model.radii_of(species);
+  }
+};
+
+struct Offset {
+  std::array<std::size_t, 3> steps;  // in half edges, a whole turn added to keep them positive
+  double length;                     // [half edges]
+};
+
+// Separations of two sites, or of a site and its images, up to a turn along each axis, shortest first.
+std::vector<Offset> offsets_within(std::size_t cells, double reach) {
+  const auto period = static_cast<std::ptrdiff_t>(2 * cells), most = std::min(period, static_cast<std::ptrdiff_t>(reach) + 1);
+  std::vector<Offset> offsets;
+  for (std::ptrdiff_t z = -most; z <= most; ++z)
+    for (std::ptrdiff_t y = -most; y <= most; ++y)
+      for (std::ptrdiff_t x = -most; x <= most; ++x) {
+        const double length = std::sqrt(static_cast<double>(x * x + y * y + z * z));
+        if ((x + y + z) % 2 != 0 || length == 0.0 || length > reach) continue;
+        offsets.push_back(
+            {{static_cast<std::size_t>(x + period), static_cast<std::size_t>(y + period), static_cast<std::size_t>(z + period)},
+             length});
+      }
+  std::stable_sort(offsets.begin(), offsets.end(), [](const Offset& a, const Offset& b) { return a.length < b.length; });
+  return offsets;
+}
+
+// The least r_ij / s_ij over pairs of spheres and their images, in half edges per sigma. Each pair is met from its larger sphere,
+// so that distant sites are looked at from spheres large enough to reach them only: O(N) for like sizes.
+double least_distance_ratio(const Packing& packing) {
+  const std::size_t period = 2 * packing.lattice.cells, n = packing.radii.size();
+  const auto place = [&](const std::array<std::size_t, 3>& at) { return (at[2] * period + at[1]) * period + at[0]; };
+  std::vector<double> radius_at(period * period * period, 0.0);  // 0: empty
+  std::vector<std::size_t> by_size(n);
+  std::iota(by_size.begin(), by_size.end(), std::size_t{0});
+  std::stable_sort(by_size.begin(), by_size.end(), [&](auto i, auto j) { return packing.radii[i] > packing.radii[j]; });
+  for (std::size_t i = 0; i < n; ++i) radius_at[place(packing.lattice.half_edges(packing.lattice.sites[i]))] = packing.radii[i];
+
+  // A sphere's own image bounds the ratio from above.
+  const double largest = packing.radii[by_size.front()];
+  double least = static_cast<double>(period) / (2.0 * largest);
+  for (double reach = 2.0;; reach *= 2.0) {
+    for (const Offset& offset : offsets_within(packing.lattice.cells, reach)) {
+      if (offset.length >= least * 2.0 * largest) return least;
+      for (const std::size_t i : by_size) {
+        const double r = packing.radii[i];
+        if (offset.length >= least * 2.0 * r) break;
+        std::array<std::size_t, 3> at = packing.lattice.half_edges(packing.lattice.sites[i]);
+        for (std::size_t axis = 0; axis < 3; ++axis) at[axis] = (at[axis] + offset.steps[axis]) % period;
+        const double other = radius_at[place(at)];
+        if (other > 0.0 && other <= r) least = std::min(least, offset.length / (r + other));
+      }
+    }
+    if (reach >= least * 2.0 * largest) return least;
+  }
+}
+
+// At which the closest two spheres touch.
+double largest_packing_fraction(const Packing& packing) {
+  const double edge = 2.0 * static_cast<double>(packing.lattice.cells) / least_distance_ratio(packing);
+  return std::min(max_packing_fraction, packing.volume / (edge * edge * edge) * (1.0 - rounding_margin));
+}
+
+}  // namespace
+
+Configuration fcc_start(const Mixture& model, std::size_t particles, double density, std::uint64_t seed) {
+  check_particles(particles, max_particles);
+  if (!(density > 0.0 && density <= max_density))
+    throw_bad_input(fmt::format("density {} is not allowed: above 0 and at most {}", density, max_density));
+  const double length = std::cbrt(static_cast<double>(particles) / density);
+  Configuration start{Box{{length, length, length}}, species_in_proportion(model, particles),
+                      Lattice(particles, seed).positions(length)};
+  shuffle(start.species, CounterRandom(seed, RandomStream::species));
   return start;
+}
+
+Configuration hard_sphere_start(const HardSphereModel& model, std::size_t particles, double packing_fraction,
+                                Arrangement arrangement, std::uint64_t seed) {
+  check_particles(particles, max_spheres);
+  if (!(packing_fraction > 0.0 && packing_fraction <= max_packing_fraction))
+    throw_bad_input(
+        fmt::format("packing fraction {} is not allowed: above 0 and at most {}", packing_fraction, max_packing_fraction));
+  model.check();
+  Packing packing(model, particles, arrangement, seed);
+  if (const double largest = largest_packing_fraction(packing); packing_fraction > largest)
+    throw_bad_input(fmt::format("packing fraction {} is beyond what this arrangement on an fcc lattice can reach ({:.6f})",
+                                packing_fraction, 1e-6 * std::floor(1e6 * largest)));  // rounded down: what is named is allowed
+  const double length = std::cbrt(packing.volume / packing_fraction);
+  return {Box{{length, length, length}}, std::move(packing.species), packing.lattice.positions(length), std::move(packing.radii)};
+}
+
+double largest_lattice_packing_fraction(const HardSphereModel& model, std::size_t particles, Arrangement arrangement,
+                                        std::uint64_t seed) {
+  check_particles(particles, max_spheres);
+  model.check();
+  return largest_packing_fraction(Packing(model, particles, arrangement, seed));
 }
 
 }  // namespace lanescape

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -36,36 +35,13 @@ const char* to_string(Truncation truncation) {
   return "";
 }
 
-int LennardJonesModel::find_species(std::string_view symbol) const {
-  std::string names;
-  for (std::size_t s = 0; s < species.size(); ++s) {
-    if (species[s].name == symbol) return static_cast<int>(s);
-    names += (s ? ", " : "") + species[s].name;
-  }
-  throw_bad_input(fmt::format("unknown species '{}': model {} has {}", symbol, name, names));
-}
-
-bool LennardJonesModel::has_equal_masses() const {
-  return std::all_of(species.begin(), species.end(), [&](const Species& s) { return s.mass == species.front().mass; });
-}
-
 void LennardJonesModel::check() const {
+  check_species();
   const std::size_t n = species.size();
-  if (n == 0) throw_bad_input(fmt::format("model {} has no species", name));
   if (epsilon.size() != n * n || sigma.size() != n * n)
     throw_bad_input(fmt::format("model {}: {} species need {} pair parameters", name, n, n * n));
   if (!(cutoff > 0.0) || !std::isfinite(cutoff))
     throw_bad_input(fmt::format("cutoff {} is not allowed: it must be a finite number above 0 (in units of sigma_ab)", cutoff));
-  for (const Species& s : species) {
-    if (!(s.mass > 0.0) || !std::isfinite(s.mass))
-      throw_bad_input(fmt::format("species {}: mass {} is not allowed, it must be finite and above 0", s.name, s.mass));
-    if (!(s.fraction >= 0.0 && s.fraction <= 1.0))
-      throw_bad_input(fmt::format("species {}: fraction {} is not between 0 and 1", s.name, s.fraction));
-    const auto namesakes =
-        std::count_if(species.begin(), species.end(), [&](const Species& other) { return other.name == s.name; });
-    if (s.name.empty() || namesakes != 1)
-      throw_bad_input(fmt::format("species name '{}' must be given, and to one species only", s.name));
-  }
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t b = 0; b < n; ++b) {
       const double e = epsilon[pair(a, b)], s = sigma[pair(a, b)];
@@ -95,7 +71,7 @@ LennardJonesModel lennard_jones() {
   return model;
 }
 
-LennardJonesModel named_model(std::string_view name) {
+LennardJonesModel named_lennard_jones_model(std::string_view name) {
   if (name == "kob-andersen") return kob_andersen();
   if (name == "lennard-jones") return lennard_jones();
   throw_bad_input(fmt::format("unknown model '{}': allowed are kob-andersen, lennard-jones", name));

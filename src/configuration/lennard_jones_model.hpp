@@ -1,9 +1,10 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <string_view>
 #include <vector>
+
+#include "configuration/mixture.hpp"
 
 namespace lanescape {
 
@@ -18,16 +19,8 @@ Truncation parse_truncation(std::string_view word);
 const char* to_string(ImageRule rule);
 const char* to_string(Truncation truncation);
 
-struct Species {
-  std::string name;       // chemical symbol used in files
-  double mass = 1.0;      // [m]
-  double fraction = 1.0;  // of the particles, for generated starts; floor(N fraction) each, the first species takes the rest
-};
-
 // A Lennard-Jones mixture: u(r) = 4 eps_ab [(s_ab/r)^12 - (s_ab/r)^6], r < cutoff s_ab.
-struct LennardJonesModel {
-  std::string name;
-  std::vector<Species> species;
+struct LennardJonesModel : Mixture {
   std::vector<double> epsilon;  // S x S, row-major, symmetric [epsilon]
   std::vector<double> sigma;    // S x S [sigma]
   double cutoff = 2.5;          // in units of s_ab
@@ -35,10 +28,7 @@ struct LennardJonesModel {
   ImageRule images = ImageRule::all;
 
   std::size_t pair(std::size_t a, std::size_t b) const { return a * species.size() + b; }
-  // Index of a species by its name; throws Error(bad_input) listing the names there are.
-  int find_species(std::string_view symbol) const;
-  bool has_equal_masses() const;
-  // Throws Error(bad_input) unless sizes match, matrices are symmetric and every number is finite and in range.
+  // Throws Error(bad_input) unless species are sound, sizes match, matrices are symmetric and every number is finite and in range.
   void check() const;
 };
 
@@ -47,6 +37,6 @@ LennardJonesModel kob_andersen();
 // One component, written Ar.
 LennardJonesModel lennard_jones();
 // "kob-andersen" or "lennard-jones"; anything else throws Error(bad_input) naming these.
-LennardJonesModel named_model(std::string_view name);
+LennardJonesModel named_lennard_jones_model(std::string_view name);
 
 }  // namespace lanescape

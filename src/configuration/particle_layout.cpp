@@ -28,4 +28,10 @@ std::vector<double> ParticleLayout::to_user(const AlignedArray& coordinates) con
   return interleaved;
 }
 
+AlignedArray ParticleLayout::per_slot(std::span<const double> per_particle, double padding) const {
+  AlignedArray values(slots_, padding);
+  for (std::size_t i = 0; i < size(); ++i) values[slot_of_[i]] = per_particle[i];
+  return values;
+}
+
 }  // namespace lanescape

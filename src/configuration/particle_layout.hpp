@@ -25,6 +25,8 @@ class ParticleLayout {
   // From 3N interleaved user coordinates, and back.
   AlignedArray to_slots(std::span<const double> interleaved) const;
   std::vector<double> to_user(const AlignedArray& coordinates) const;
+  // One value per slot, from one per particle in the user's order; padding slots get `padding`.
+  AlignedArray per_slot(std::span<const double> per_particle, double padding) const;
 
  private:
   std::vector<std::size_t> slot_of_;

@@ -41,6 +41,11 @@ class VectorAlgebra {
   kernels::DisplacementMoments displacement_moments(const AlignedArray& from, const AlignedArray& to) const {
     return table_->displacement_moments(from.data(), to.data(), from.size() / 3);
   }
+  // Of a collision-avoidance step: kernels::KernelTable::sphere_avoidance_trial.
+  std::size_t avoidance_trial(AlignedArray& trial, const AlignedArray& position, AlignedArray& sum, AlignedArray& force,
+                              double step) const {
+    return table_->sphere_avoidance_trial(trial.data(), position.data(), sum.data(), force.data(), step, trial.size() / 3);
+  }
 
  private:
   const kernels::KernelTable* table_;

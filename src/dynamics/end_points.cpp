@@ -72,7 +72,7 @@ double end_point_distance(const AlignedArray& a, const AlignedArray& b, const Pa
   return std::sqrt(squared);
 }
 
-EndPointGenerator::EndPointGenerator(SoftLandscape& landscape, const LennardJonesModel& model, const ParticleLayout& layout,
+EndPointGenerator::EndPointGenerator(SoftLandscape& landscape, const Mixture& model, const ParticleLayout& layout,
                                      AlignedArray start, const EndPointOptions& options)
     : landscape_(&landscape),
       layout_(&layout),

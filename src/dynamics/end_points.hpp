@@ -51,7 +51,7 @@ class EndPointGenerator {
   enum class Phase : std::uint64_t { melt, cool, check, settle, pair, between, done, temperature_not_held, distance_not_reached };
 
   // Draws the velocities. `landscape` and `layout` must outlive this object.
-  EndPointGenerator(SoftLandscape& landscape, const LennardJonesModel& model, const ParticleLayout& layout, AlignedArray start,
+  EndPointGenerator(SoftLandscape& landscape, const Mixture& model, const ParticleLayout& layout, AlignedArray start,
                     const EndPointOptions& options);
 
   void step();

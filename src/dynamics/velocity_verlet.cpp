@@ -6,8 +6,8 @@
 
 namespace lanescape {
 
-VelocityVerlet::VelocityVerlet(SoftLandscape& landscape, const LennardJonesModel& model, const ParticleLayout& layout,
-                               AlignedArray position, double time_step)
+VelocityVerlet::VelocityVerlet(SoftLandscape& landscape, const Mixture& model, const ParticleLayout& layout, AlignedArray position,
+                               double time_step)
     : landscape_(&landscape),
       layout_(&layout),
       position_(std::move(position)),

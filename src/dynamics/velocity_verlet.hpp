@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "configuration/lennard_jones_model.hpp"
+#include "configuration/mixture.hpp"
 #include "configuration/particle_layout.hpp"
 #include "core/archive.hpp"
 #include "landscape/soft_landscape.hpp"
@@ -15,7 +15,7 @@ namespace lanescape {
 class VelocityVerlet {
  public:
   // Starts at rest. `landscape` and `layout` must outlive this object.
-  VelocityVerlet(SoftLandscape& landscape, const LennardJonesModel& model, const ParticleLayout& layout, AlignedArray position,
+  VelocityVerlet(SoftLandscape& landscape, const Mixture& model, const ParticleLayout& layout, AlignedArray position,
                  double time_step);
 
   // Velocities from Maxwell's distribution, total momentum removed, then scaled to the temperature exactly.

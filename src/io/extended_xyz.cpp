@@ -21,6 +21,7 @@ namespace {
 constexpr std::size_t most_particles = 10'000'000;
 constexpr std::size_t longest_line = std::size_t{1} << 20;  // [bytes]; keeps a file without line ends out of memory
 constexpr std::size_t most_columns = 1000;
+constexpr std::size_t most_species = 118;         // where any are taken; there are no more elements
 constexpr double farthest_box_lengths = 1e6;      // beyond, wrapping leaves too few digits
 constexpr double orthorhombic_tolerance = 1e-12;  // of the edge; what rotating a cell to the axes leaves behind
 constexpr std::string_view blanks = " \t";
@@ -187,58 +188,82 @@ void check_periodic(std::string_view text) {
     throw Refusal{fmt::format("pbc \"{}\" is not allowed: the box must be periodic along all axes, \"T T T\"", printable(whole))};
 }
 
+const char* properties_example(RadiusColumn radius) {
+  return radius == RadiusColumn::required ? "Properties=species:S:1:pos:R:3:radius:R:1" : "Properties=species:S:1:pos:R:3";
+}
+
 struct Columns {
   std::size_t count = 0;
   std::size_t species = 0;   // index of the column
   std::size_t position = 0;  // of the first of three
+  std::optional<std::size_t> radius;
 };
 
-Columns parse_properties(std::string_view text) {
-  constexpr std::string_view allowed = "name:type:columns triplets with species:S:1 and pos:R:3 are needed, types S, R, I, L";
+Columns parse_properties(std::string_view text, RadiusColumn radius_column) {
+  const bool with_radius = radius_column == RadiusColumn::required;
+  const std::string allowed = fmt::format("name:type:columns triplets with species:S:1{} are needed, types S, R, I, L",
+                                          with_radius ? ", pos:R:3 and radius:R:1" : " and pos:R:3");
   const std::vector<std::string_view> parts = split(text, ':');
   if (parts.size() % 3 != 0) throw Refusal{fmt::format("Properties {} is not allowed: {}", printable(text), allowed)};
   Columns columns;
-  int species = 0, positions = 0;
+  int species = 0, positions = 0, radii = 0;
   for (std::size_t p = 0; p < parts.size(); p += 3) {
     const std::string_view name = parts[p], type = parts[p + 1];
     const auto width = parse<std::size_t>(parts[p + 2]);
     const bool known_type = type.size() == 1 && std::string_view("SRIL").find(type) != std::string_view::npos;
     const bool fits = width && *width > 0 && columns.count + std::min(*width, most_columns + 1) <= most_columns;
-    const bool is_species = name == "species", is_position = name == "pos";
+    const bool is_species = name == "species", is_position = name == "pos", is_radius = with_radius && name == "radius";
     if (name.empty() || !known_type || !fits || (is_species && (type != "S" || *width != 1)) ||
-        (is_position && (type != "R" || *width != 3)))
+        (is_position && (type != "R" || *width != 3)) || (is_radius && (type != "R" || *width != 1)))
       throw Refusal{fmt::format("Properties entry {}:{}:{} is not allowed: {}, at most {} columns", printable(name),
                                 printable(type), printable(parts[p + 2]), allowed, most_columns)};
     if (is_species) ++species, columns.species = columns.count;
     if (is_position) ++positions, columns.position = columns.count;
+    if (is_radius) ++radii, columns.radius = columns.count;
     columns.count += *width;
   }
   if (species != 1 || positions != 1)
     throw Refusal{fmt::format("Properties {} has species {} times and pos {} times: {}, each once", printable(text), species,
                               positions, allowed)};
+  if (with_radius && radii != 1)
+    throw Refusal{fmt::format("Properties {} has radius {} times: hard spheres need radius:R:1 once, each value finite and above 0",
+                              printable(text), radii)};
   return columns;
 }
 
-int parse_species(std::string_view word, const LennardJonesModel& model) {
-  for (std::size_t s = 0; s < model.species.size(); ++s)
-    if (model.species[s].name == word) return static_cast<int>(s);
+int parse_species(std::string_view word, const Mixture& mixture) {
+  for (std::size_t s = 0; s < mixture.species.size(); ++s)
+    if (mixture.species[s].name == word) return static_cast<int>(s);
   try {
-    return model.find_species(printable(word));
+    return mixture.find_species(printable(word));
   } catch (const Error& error) {
     throw Refusal{error.what()};
   }
 }
 
-void parse_particle(std::string_view line, const Columns& columns, const LennardJonesModel& model, Configuration& configuration) {
+double parse_coordinate(std::string_view word, double edge) {
+  const double x = parse_finite(word, "coordinate");
+  if (std::abs(x) > farthest_box_lengths * edge)
+    throw Refusal{fmt::format("coordinate {} is not allowed: at most {} box lengths of {} are", x, farthest_box_lengths, edge)};
+  return x;
+}
+
+double parse_radius(std::string_view word) {
+  const auto radius = parse<double>(word);
+  if (!radius || !(*radius > 0.0) || !std::isfinite(*radius))
+    throw Refusal{fmt::format("radius '{}' is not allowed: a finite number above 0 is needed", printable(word))};
+  return *radius;
+}
+
+// `species_of` numbers the species.
+template <class SpeciesOf>
+void parse_particle(std::string_view line, const Columns& columns, SpeciesOf species_of, Configuration& configuration) {
   std::size_t column = 0;
   for (std::string_view word; !(word = take_word(line)).empty(); ++column) {
-    if (column == columns.species) configuration.species.push_back(parse_species(word, model));
-    if (column < columns.position || column >= columns.position + 3) continue;
-    const double x = parse_finite(word, "coordinate");
-    const double edge = configuration.box.length[column - columns.position];
-    if (std::abs(x) > farthest_box_lengths * edge)
-      throw Refusal{fmt::format("coordinate {} is not allowed: at most {} box lengths of {} are", x, farthest_box_lengths, edge)};
-    configuration.positions.push_back(x);
+    if (column == columns.species) configuration.species.push_back(species_of(word));
+    if (column == columns.radius) configuration.radii.push_back(parse_radius(word));
+    if (column >= columns.position && column < columns.position + 3)
+      configuration.positions.push_back(parse_coordinate(word, configuration.box.length[column - columns.position]));
   }
   if (column != columns.count)
     throw Refusal{fmt::format("a particle line of {} columns is not allowed: Properties has {}", column, columns.count)};
@@ -246,8 +271,14 @@ void parse_particle(std::string_view line, const Columns& columns, const Lennard
 
 }  // namespace
 
-ExtendedXyzReader::ExtendedXyzReader(std::filesystem::path path, const LennardJonesModel& model)
-    : path_(std::move(path)), model_(model) {
+ExtendedXyzReader::ExtendedXyzReader(std::filesystem::path path, RadiusColumn radius)
+    : ExtendedXyzReader(std::move(path), Mixture{}, radius) {
+  mixture_.name = path_.filename().string();
+  takes_any_species_ = true;
+}
+
+ExtendedXyzReader::ExtendedXyzReader(std::filesystem::path path, const Mixture& mixture, RadiusColumn radius)
+    : path_(std::move(path)), mixture_(mixture), radius_(radius) {
   std::error_code error;
   const auto status = std::filesystem::status(path_, error);
   if (std::filesystem::is_directory(status)) refuse("it is a folder: an extended XYZ file is needed");
@@ -293,6 +324,17 @@ std::size_t ExtendedXyzReader::line_of_count() {
   return 0;
 }
 
+int ExtendedXyzReader::species_of(std::string_view word) {
+  auto& species = mixture_.species;
+  const auto is_it = [&](const Species& s) { return s.name == word; };
+  if (takes_any_species_ && std::none_of(species.begin(), species.end(), is_it)) {
+    if (species.size() == most_species)
+      throw Refusal{fmt::format("species '{}' is one too many: at most {} are allowed", printable(word), most_species)};
+    species.push_back({std::string(word)});
+  }
+  return parse_species(word, mixture_);
+}
+
 std::optional<Frame> ExtendedXyzReader::next() {
   const std::size_t count = line_of_count();
   if (count == 0) {
@@ -305,13 +347,13 @@ std::optional<Frame> ExtendedXyzReader::next() {
     if (!comment) refuse(fmt::format("the file ends before the comment line: {} particles are announced", count));
     frame.info = parse_comment(*comment);
     frame.configuration.box = parse_lattice(take_key(frame.info, "lattice", "Lattice=\"Lx 0 0 0 Ly 0 0 0 Lz\""));
-    const Columns columns = parse_properties(take_key(frame.info, "properties", "Properties=species:S:1:pos:R:3"));
+    const Columns columns = parse_properties(take_key(frame.info, "properties", properties_example(radius_)), radius_);
     if (const auto pbc = frame.info.extract("pbc")) check_periodic(pbc.mapped());
     // Nothing is reserved: the count is only a claim until the lines are there.
     for (std::size_t i = 0; i < count; ++i) {
       const auto line = next_line();
       if (!line) refuse(fmt::format("the file ends after {} of {} particle lines: all of them are needed", i, count));
-      parse_particle(*line, columns, model_, frame.configuration);
+      parse_particle(*line, columns, [this](std::string_view word) { return species_of(word); }, frame.configuration);
     }
   } catch (const Refusal& refusal) {
     refuse(refusal.message);
@@ -320,15 +362,15 @@ std::optional<Frame> ExtendedXyzReader::next() {
   return frame;
 }
 
-Frame read_single_frame(const std::filesystem::path& path, const LennardJonesModel& model) {
-  ExtendedXyzReader reader(path, model);
+Frame read_single_frame(const std::filesystem::path& path, const Mixture& mixture, RadiusColumn radius) {
+  ExtendedXyzReader reader(path, mixture, radius);
   std::optional<Frame> frame = reader.next();
   if (reader.next()) throw_bad_input(fmt::format("{}: the file holds more than one frame: exactly one is allowed", path.string()));
   return std::move(*frame);
 }
 
-std::vector<Frame> read_frames(const std::filesystem::path& path, const LennardJonesModel& model) {
-  ExtendedXyzReader reader(path, model);
+std::vector<Frame> read_frames(const std::filesystem::path& path, const Mixture& mixture, RadiusColumn radius) {
+  ExtendedXyzReader reader(path, mixture, radius);
   std::vector<Frame> frames;
   while (auto frame = reader.next()) frames.push_back(std::move(*frame));
   return frames;
@@ -363,7 +405,7 @@ void append_pair(std::string& comment, const std::string& key, const std::string
   comment += '"';
 }
 
-void check_for_writing(const Configuration& configuration, const LennardJonesModel& model, const std::vector<double>* forces) {
+void check_for_writing(const Configuration& configuration, const Mixture& mixture, const std::vector<double>* forces) {
   const std::size_t n = configuration.size();
   if (n == 0 || configuration.positions.size() != 3 * n || (forces && forces->size() != 3 * n))
     throw_bad_input(
@@ -371,24 +413,33 @@ void check_for_writing(const Configuration& configuration, const LennardJonesMod
                     "particle and 3 of each per particle are needed",
                     n, configuration.positions.size(), forces ? forces->size() : 3 * n));
   for (const int s : configuration.species)
-    if (s < 0 || static_cast<std::size_t>(s) >= model.species.size())
-      throw_bad_input(fmt::format("species {} cannot be written: model {} has 0 to {}", s, model.name, model.species.size() - 1));
+    if (s < 0 || static_cast<std::size_t>(s) >= mixture.species.size())
+      throw_bad_input(
+          fmt::format("species {} cannot be written: model {} has 0 to {}", s, mixture.name, mixture.species.size() - 1));
+  if (!configuration.radii.empty() && configuration.radii.size() != n)
+    throw_bad_input(fmt::format("a frame of {} particles and {} radii cannot be written: one each or none are allowed", n,
+                                configuration.radii.size()));
+  for (const double r : configuration.radii)
+    if (!(r > 0.0) || !std::isfinite(r))
+      throw_bad_input(fmt::format("radius {} cannot be written: a finite number above 0 is needed", r));
 }
 
 }  // namespace
 
-void write_frame(std::ostream& out, const Configuration& configuration, const LennardJonesModel& model,
+void write_frame(std::ostream& out, const Configuration& configuration, const Mixture& mixture,
                  const std::map<std::string, std::string>& info, const std::vector<double>* forces) {
-  check_for_writing(configuration, model, forces);
+  check_for_writing(configuration, mixture, forces);
   const auto& edge = configuration.box.length;
-  std::string text = fmt::format("{}\nLattice=\"{} 0 0 0 {} 0 0 0 {}\" Properties=species:S:1:pos:R:3{} pbc=\"T T T\"",
-                                 configuration.size(), edge[0], edge[1], edge[2], forces ? ":forces:R:3" : "");
+  std::string text =
+      fmt::format("{}\nLattice=\"{} 0 0 0 {} 0 0 0 {}\" Properties=species:S:1:pos:R:3{}{} pbc=\"T T T\"", configuration.size(),
+                  edge[0], edge[1], edge[2], configuration.radii.empty() ? "" : ":radius:R:1", forces ? ":forces:R:3" : "");
   for (const auto& [key, value] : info) append_pair(text, key, value);
   text += '\n';
   for (std::size_t i = 0; i < configuration.size(); ++i) {
     const double* r = &configuration.positions[3 * i];
-    text += model.species[static_cast<std::size_t>(configuration.species[i])].name;
+    text += mixture.species[static_cast<std::size_t>(configuration.species[i])].name;
     fmt::format_to(std::back_inserter(text), " {} {} {}", r[0], r[1], r[2]);
+    if (!configuration.radii.empty()) fmt::format_to(std::back_inserter(text), " {}", configuration.radii[i]);
     if (forces) fmt::format_to(std::back_inserter(text), " {} {} {}", (*forces)[3 * i], (*forces)[3 * i + 1], (*forces)[3 * i + 2]);
     text += '\n';
     if (text.size() > 65536) {

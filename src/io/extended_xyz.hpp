@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "configuration/configuration.hpp"
-#include "configuration/lennard_jones_model.hpp"
+#include "configuration/mixture.hpp"
 
 namespace lanescape {
 
@@ -21,22 +21,33 @@ struct Frame {
   std::map<std::string, std::string> info;  // the comment line's other pairs, as text; a bare word has the value "T"
 };
 
+// Whether particles must have the column radius:R:1, which becomes Configuration::radii; ignored, it is a column like others.
+enum class RadiusColumn { ignored, required };
+
 // Reads frame by frame and holds one frame in memory. Strict: whatever could be misread throws Error(bad_input) with file and
 // line. Wanted are an orthorhombic Lattice, Properties with species:S:1 and pos:R:3 (other columns are skipped), pbc "T T T"
-// or none, the model's species and finite coordinates within 10^6 box lengths; positions may be unwrapped.
+// or none, the mixture's species and finite coordinates within 10^6 box lengths; positions may be unwrapped. Radii are finite and
+// above 0.
 class ExtendedXyzReader {
  public:
-  ExtendedXyzReader(std::filesystem::path path, const LennardJonesModel& model);
+  ExtendedXyzReader(std::filesystem::path path, const Mixture& mixture, RadiusColumn radius = RadiusColumn::ignored);
+  // Takes any species, at most 118, and numbers them in the order in which they appear.
+  explicit ExtendedXyzReader(std::filesystem::path path, RadiusColumn radius = RadiusColumn::ignored);
   // The next frame; nothing at the end of the file. A file without any frame is refused.
   std::optional<Frame> next();
+  // The species there are; of a reader that takes any, those met so far.
+  const Mixture& mixture() const { return mixture_; }
 
  private:
   std::optional<std::string_view> next_line();
   std::size_t line_of_count();
+  int species_of(std::string_view word);
   [[noreturn]] void refuse(const std::string& what_and_allowed) const;
 
   std::filesystem::path path_;
-  LennardJonesModel model_;
+  Mixture mixture_;
+  bool takes_any_species_ = false;
+  RadiusColumn radius_;
   std::ifstream in_;
   std::vector<char> buffer_;
   std::size_t line_ = 0;
@@ -44,13 +55,15 @@ class ExtendedXyzReader {
 };
 
 // The frame of a file that must hold exactly one.
-Frame read_single_frame(const std::filesystem::path& path, const LennardJonesModel& model);
+Frame read_single_frame(const std::filesystem::path& path, const Mixture& mixture, RadiusColumn radius = RadiusColumn::ignored);
 // All frames of a file that must hold at least one.
-std::vector<Frame> read_frames(const std::filesystem::path& path, const LennardJonesModel& model);
+std::vector<Frame> read_frames(const std::filesystem::path& path, const Mixture& mixture,
+                               RadiusColumn radius = RadiusColumn::ignored);
 
 // Writes one frame with the shortest digits that read back as the same bits. `info` must not use the names Lattice, Properties
-// and pbc. `forces`, where given, are 3N numbers in the particles' order and make the column forces:R:3 [epsilon/sigma].
-void write_frame(std::ostream& out, const Configuration& configuration, const LennardJonesModel& model,
+// and pbc. Radii, where the configuration has them, make the column radius:R:1 [sigma]. `forces`, where given, are 3N numbers in
+// the particles' order and make the column forces:R:3 [epsilon/sigma].
+void write_frame(std::ostream& out, const Configuration& configuration, const Mixture& mixture,
                  const std::map<std::string, std::string>& info, const std::vector<double>* forces = nullptr);
 
 }  // namespace lanescape

@@ -31,6 +31,8 @@ struct Range {
 };
 constexpr Range positive{[](double x) { return std::isfinite(x) && x > 0.0; }, "a finite number above 0"};
 constexpr Range non_negative{[](double x) { return std::isfinite(x) && x >= 0.0; }, "a finite number of at least 0"};
+constexpr Range diameter_range{[](double x) { return x >= smallest_diameter && x <= largest_diameter; },
+                               "a number from 1e-6 to 1e6"};
 constexpr Range unit_interval{[](double x) { return x >= 0.0 && x <= 1.0; }, "a number from 0 to 1"};
 
 // Typed, checked access to a parsed file; every refusal carries the line of the node at fault.
@@ -38,7 +40,7 @@ class ModelParser {
  public:
   ModelParser(std::string file, const toml::table& root) : file_(std::move(file)), root_(root) {}
 
-  LennardJonesModel parse(const std::string& default_name) const;
+  Model parse(const std::string& default_name) const;
 
  private:
   [[noreturn]] void refuse(const toml::node& at, const std::string& what_and_allowed) const {
@@ -49,9 +51,11 @@ class ModelParser {
   double number(const toml::node& node, std::string_view key, Range range) const;
   std::string text(const toml::node& node, std::string_view key) const;
   std::vector<const toml::table*> tables(std::string_view key) const;
-  void parse_species(LennardJonesModel& model) const;
+  LennardJonesModel parse_lennard_jones(const std::string& name) const;
+  HardSphereModel parse_hard_sphere(const std::string& name) const;
+  std::vector<Species> parse_species(std::initializer_list<std::string_view> keys) const;
   void parse_pairs(LennardJonesModel& model) const;
-  std::size_t species_index(const toml::node& node, const LennardJonesModel& model) const;
+  std::size_t species_index(const toml::node& node, const Mixture& mixture) const;
   // For library checks that know the model but not the file.
   template <class Action>
   auto located(const toml::node& at, Action action) const {
@@ -106,20 +110,22 @@ std::vector<const toml::table*> ModelParser::tables(std::string_view key) const 
   return result;
 }
 
-void ModelParser::parse_species(LennardJonesModel& model) const {
+// `keys` are those that a species of this kind of model may have.
+std::vector<Species> ModelParser::parse_species(std::initializer_list<std::string_view> keys) const {
   const auto sections = tables("species");
   if (sections.size() > most_species)
     refuse(*sections.back(), fmt::format("{} species are not allowed: at most {} are", sections.size(), most_species));
+  std::vector<Species> result;
   std::size_t with_fraction = 0;
   double sum = 0.0;
   for (const toml::table* section : sections) {
-    allow_keys(*section, {"name", "mass", "fraction"});
+    allow_keys(*section, keys);
     Species species;
     const toml::node& name = need(*section, "name");
     species.name = text(name, "name");
     if (std::any_of(species.name.begin(), species.name.end(), [](unsigned char c) { return c <= ' ' || c == 127; }))
       refuse(name, "the name of a species is a column in files: blanks are not allowed in it");
-    for (const Species& other : model.species)
+    for (const Species& other : result)
       if (other.name == species.name) refuse(name, fmt::format("species {} is given twice: each once is allowed", species.name));
     if (const toml::node* mass = section->get("mass")) species.mass = number(*mass, "mass", positive);
     if (const toml::node* fraction = section->get("fraction")) {
@@ -128,18 +134,19 @@ void ModelParser::parse_species(LennardJonesModel& model) const {
     } else {
       species.fraction = 1.0 / static_cast<double>(sections.size());
     }
-    model.species.push_back(species);
+    result.push_back(species);
   }
   if (with_fraction != 0 && with_fraction != sections.size())
     refuse(*sections.front(),
            fmt::format("{} of {} species have a fraction: all or none is allowed", with_fraction, sections.size()));
   if (with_fraction != 0 && std::abs(sum - 1.0) > fraction_tolerance)
     refuse(*sections.front(), fmt::format("the fractions add up to {}: a sum of 1 is needed", sum));
+  return result;
 }
 
-std::size_t ModelParser::species_index(const toml::node& node, const LennardJonesModel& model) const {
+std::size_t ModelParser::species_index(const toml::node& node, const Mixture& mixture) const {
   const std::string name = text(node, "species");
-  return located(node, [&] { return static_cast<std::size_t>(model.find_species(name)); });
+  return located(node, [&] { return static_cast<std::size_t>(mixture.find_species(name)); });
 }
 
 void ModelParser::parse_pairs(LennardJonesModel& model) const {
@@ -165,14 +172,10 @@ void ModelParser::parse_pairs(LennardJonesModel& model) const {
                                                 model.species[a].name, model.species[b].name));
 }
 
-LennardJonesModel ModelParser::parse(const std::string& default_name) const {
+LennardJonesModel ModelParser::parse_lennard_jones(const std::string& name) const {
   allow_keys(root_, {"kind", "name", "cutoff", "truncation", "images", "species", "pair"});
-  const toml::node& kind = need(root_, "kind");
-  if (const std::string word = text(kind, "kind"); word != "lennard-jones")
-    refuse(kind, fmt::format("unknown kind '{}': allowed is lennard-jones", word));
   LennardJonesModel model;
-  model.name = default_name;
-  if (const toml::node* node = root_.get("name")) model.name = text(*node, "name");
+  model.name = name;
   if (const toml::node* node = root_.get("cutoff")) model.cutoff = number(*node, "cutoff", positive);
   if (const toml::node* node = root_.get("truncation")) {
     const std::string word = text(*node, "truncation");
@@ -182,10 +185,31 @@ LennardJonesModel ModelParser::parse(const std::string& default_name) const {
     const std::string word = text(*node, "images");
     model.images = located(*node, [&] { return parse_image_rule(word); });
   }
-  parse_species(model);
+  model.species = parse_species({"name", "mass", "fraction"});
   parse_pairs(model);
   located(root_, [&] { model.check(); });
   return model;
+}
+
+HardSphereModel ModelParser::parse_hard_sphere(const std::string& name) const {
+  allow_keys(root_, {"kind", "name", "species"});
+  HardSphereModel model;
+  model.name = name;
+  model.species = parse_species({"name", "mass", "fraction", "diameter"});
+  for (const toml::table* section : tables("species"))
+    model.diameters.push_back(number(need(*section, "diameter"), "diameter", diameter_range));
+  located(root_, [&] { model.check(); });
+  return model;
+}
+
+Model ModelParser::parse(const std::string& default_name) const {
+  const toml::node& kind = need(root_, "kind");
+  const std::string word = text(kind, "kind");
+  const toml::node* name = root_.get("name");
+  const std::string model_name = name ? text(*name, "name") : default_name;
+  if (word == "lennard-jones") return parse_lennard_jones(model_name);
+  if (word == "hard-sphere") return parse_hard_sphere(model_name);
+  refuse(kind, fmt::format("unknown kind '{}': allowed are lennard-jones, hard-sphere", word));
 }
 
 std::string read_text(const std::filesystem::path& path) {
@@ -212,7 +236,7 @@ std::string quoted(const std::string& text) {
   return out.str();
 }
 
-LennardJonesModel parse_model(const std::string& content, const std::string& file, const std::string& default_name) {
+Model parse_model(const std::string& content, const std::string& file, const std::string& default_name) {
   try {
     return ModelParser(file, toml::parse(content)).parse(default_name);
   } catch (const toml::parse_error& error) {
@@ -222,27 +246,49 @@ LennardJonesModel parse_model(const std::string& content, const std::string& fil
   }
 }
 
-}  // namespace
-
-LennardJonesModel read_model_file(const std::filesystem::path& path) {
-  return parse_model(read_text(path), path.string(), path.stem().string());
+std::string header(const Mixture& mixture, std::string_view kind) {
+  return fmt::format("kind = \"{}\"\n", kind) + (mixture.name.empty() ? "" : fmt::format("name = {}\n", quoted(mixture.name)));
 }
 
-void write_model_file(std::ostream& out, const LennardJonesModel& model) {
-  model.check();
-  std::string text = "kind = \"lennard-jones\"\n";
-  if (!model.name.empty()) text += fmt::format("name = {}\n", quoted(model.name));
+std::string section(const Species& species) {
+  return fmt::format("\n[[species]]\nname = {}\nmass = {}\nfraction = {}\n", quoted(species.name), species.mass, species.fraction);
+}
+
+std::string to_toml(const LennardJonesModel& model) {
+  std::string text = header(model, "lennard-jones");
   text += fmt::format("cutoff = {}\ntruncation = \"{}\"\nimages = \"{}\"\n", model.cutoff, to_string(model.truncation),
                       to_string(model.images));
-  for (const Species& species : model.species)
-    text +=
-        fmt::format("\n[[species]]\nname = {}\nmass = {}\nfraction = {}\n", quoted(species.name), species.mass, species.fraction);
+  for (const Species& species : model.species) text += section(species);
   for (std::size_t a = 0; a < model.species.size(); ++a)
     for (std::size_t b = a; b < model.species.size(); ++b)
       text += fmt::format("\n[[pair]]\nspecies = [{}, {}]\nepsilon = {}\nsigma = {}\n", quoted(model.species[a].name),
                           quoted(model.species[b].name), model.epsilon[model.pair(a, b)], model.sigma[model.pair(a, b)]);
+  return text;
+}
+
+std::string to_toml(const HardSphereModel& model) {
+  std::string text = header(model, "hard-sphere");
+  for (std::size_t s = 0; s < model.species.size(); ++s)
+    text += section(model.species[s]) + fmt::format("diameter = {}\n", model.diameters[s]);
+  return text;
+}
+
+}  // namespace
+
+Model read_model_file(const std::filesystem::path& path) {
+  return parse_model(read_text(path), path.string(), path.stem().string());
+}
+
+void write_model_file(std::ostream& out, const Model& model) {
+  const std::string text = std::visit(
+      [](const auto& m) {
+        m.check();
+        return to_toml(m);
+      },
+      model);
   // The reader is stricter than check() on names and fractions; what it would refuse is not written.
-  parse_model(text, "model " + model.name, model.name);
+  const std::string& name = mixture_of(model).name;
+  parse_model(text, "model " + name, name);
   out << text;
 }
 

@@ -3,16 +3,16 @@
 #include <filesystem>
 #include <ostream>
 
-#include "configuration/lennard_jones_model.hpp"
+#include "configuration/model.hpp"
 
 namespace lanescape {
 
 // A mixture as a TOML file (docs/FORMATS.md). Whatever is unknown, missing, given twice or out of range throws
 // Error(bad_input) with file and line. Left out: name is the file's stem, mass is 1, cutoff, truncation and images are
 // LennardJonesModel's; fractions are equal and come for all species or none.
-LennardJonesModel read_model_file(const std::filesystem::path& path);
+Model read_model_file(const std::filesystem::path& path);
 
 // Writes what read_model_file reads back as the same model, bit for bit; a model it would refuse throws Error(bad_input).
-void write_model_file(std::ostream& out, const LennardJonesModel& model);
+void write_model_file(std::ostream& out, const Model& model);
 
 }  // namespace lanescape

@@ -5,7 +5,7 @@
 
 namespace lanescape {
 
-KinematicMetric::KinematicMetric(const LennardJonesModel& model, const ParticleLayout& layout) {
+KinematicMetric::KinematicMetric(const Mixture& model, const ParticleLayout& layout) {
   if (model.has_equal_masses()) return;
   double total = 0.0;
   for (std::size_t s = 0; s < layout.blocks().size(); ++s)

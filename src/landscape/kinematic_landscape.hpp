@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "configuration/lennard_jones_model.hpp"
+#include "configuration/mixture.hpp"
 #include "configuration/particle_layout.hpp"
 #include "landscape/soft_landscape.hpp"
 
@@ -12,7 +12,7 @@ namespace lanescape {
 // Between positions r and kinematic coordinates q = sqrt(m_j / <m>) r_j; nothing to do where all masses are equal.
 class KinematicMetric {
  public:
-  KinematicMetric(const LennardJonesModel& model, const ParticleLayout& layout);
+  KinematicMetric(const Mixture& model, const ParticleLayout& layout);
 
   bool is_euclidean() const { return scale_.empty(); }
   void to_kinematic(AlignedArray& positions) const;

@@ -160,12 +160,12 @@ class Usage(ProgramTest):
     def test_what_nobody_has_asked_for_yet_is_absent(self):
         for subcommand in SUBCOMMANDS:
             text = lanescape(subcommand, "--help").stdout
-            for absent in ("hard-sphere", "ucg", "--adaptive", "--avoidance-step", "--fictitious", "--packing-fraction",
+            for absent in ("ucg", "--adaptive", "--avoidance-step", "--fictitious", "--packing-fraction",
                            "--overlap-tolerance", "avoidance", "away"):
                 self.assertNotIn(absent, text, subcommand)
         for absent in ("overlap", "shorten", "diffusion", "insert", "analyze"):
             self.refused(absent, says=absent)
-        self.refused("energy", self.file("two.xyz", frame(*TWO)), "--model", "hard-sphere", says=("hard-sphere", "kob-andersen"))
+        self.refused("energy", self.file("two.xyz", frame(*TWO)), "--model", "ucg", says=("ucg", "kob-andersen"))
 
     def test_version_is_printed(self):
         run = lanescape("--version")
@@ -874,6 +874,19 @@ class BadOptions(ProgramTest):
                 self.refused_cleanly("path", "--pair", pair, option, value, says=(value.strip(), allowed))
         self.refused_cleanly("energy", pair, *ARGON, "--backend", "gpu", says=("gpu", "simd or reference"))
         self.refused_cleanly("endpoints", *ARGON, *TINY, "--distance-species", "Xx", says=("Xx", "Ar"))
+
+    def test_hard_spheres_have_no_energy(self):
+        two = self.file("two.xyz", frame(*TWO))
+        model = self.file("model.toml", 'kind = "hard-sphere"\nname = "marbles"\n[[species]]\nname = "Ar"\ndiameter = 1.0\n')
+        for subcommand in ("energy", "verify"):
+            for name, arguments in (("hard-sphere", ("--model", "hard-sphere")), ("hard-sphere-binary", ("--model", "hard-sphere-binary")),
+                                    ("marbles", ("--model-file", model))):
+                self.refused_cleanly(subcommand, two, *arguments, says=(subcommand, f"model {name} is made of hard spheres", "kob-andersen"))
+
+    def test_hard_spheres_have_no_cutoff_images_or_truncation(self):
+        two = self.file("two.xyz", frame(*TWO))
+        for option, value in (("--cutoff", "2.5"), ("--images", "all"), ("--truncation", "plain")):
+            self.refused_cleanly("energy", two, "--model", "hard-sphere", option, value, says=(option, "hard-sphere"))
 
     def test_plots_need_a_folder(self):
         self.refused("path", *ARGON, *TINY, "--plot", says=("--plot", "--out"))

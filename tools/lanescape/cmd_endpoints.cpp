@@ -17,7 +17,7 @@ Subcommand add_endpoints(CLI::App& app) {
   return {sub, [=](int& status) {
             state->common.check();
             const Isa isa = state->common.resolve_isa();
-            const LennardJonesModel model = state->system.resolve();
+            const LennardJonesModel model = state->system.resolve_soft("endpoints");
             const Configuration start = state->setup.start(model, state->common.seed);
             const EndPointOptions protocol = state->setup.resolve(model, start.size(), state->common.seed);
             OutputFolder folder = open_folder(state->common);

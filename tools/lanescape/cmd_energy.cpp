@@ -66,7 +66,7 @@ Subcommand add_energy(CLI::App& app) {
   return {sub, [=](int&) {
             state->common.check();
             const Isa isa = state->common.resolve_isa();
-            const LennardJonesModel model = state->system.resolve();
+            const LennardJonesModel model = state->system.resolve_soft("energy");
             if (state->backend != "simd" && state->backend != "reference")
               throw_bad_input(fmt::format("--backend: '{}' is not allowed: simd or reference", state->backend));
             const Configuration configuration = read_first_frame(state->file, model);

@@ -105,7 +105,7 @@ void write_trace(std::ostream& out, const PathResult& path) {
   }
 }
 
-void write_files(OutputFolder& folder, const std::vector<PathResult>& paths, PathMethod method, const LennardJonesModel& model) {
+void write_files(OutputFolder& folder, const std::vector<PathResult>& paths, PathMethod method, const Mixture& model) {
   folder.write("paths.csv", [&](std::ostream& out) {
     fmt::print(out,
                "path,outcome,length,distance,ratio_squared,participation_ratio,direct_steps,{}_steps,evaluations,seconds,"
@@ -158,7 +158,7 @@ bool add_paths(Json& json, const std::vector<PathResult>& paths, PathMethod meth
 Json run_path(PathState& state, const Options& options, const Options& setup_options, int& status) {
   state.common.check();
   const Isa isa = state.common.resolve_isa();
-  const LennardJonesModel model = state.system.resolve();
+  const LennardJonesModel model = state.system.resolve_soft("path");
   const PathRunOptions path_options = state.run_options();
   const bool resumed = !state.common.resume.empty(), from_files = !state.pair_files.empty();
   if (state.plot && state.common.out.empty() && !resumed) throw_bad_input("--plot needs --out: the plots are files");

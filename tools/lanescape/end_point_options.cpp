@@ -38,7 +38,7 @@ double EndPointSetup::default_distance(std::size_t particles) {
   return particles == 108 ? 108.0 : 10.0 * std::sqrt(static_cast<double>(particles));
 }
 
-EndPointOptions EndPointSetup::resolve(const LennardJonesModel& model, std::size_t particles, std::uint64_t seed) const {
+EndPointOptions EndPointSetup::resolve(const Mixture& model, std::size_t particles, std::uint64_t seed) const {
   EndPointOptions options;
   if (quick_) options.make_quick();
   options.temperature = temperature_;
@@ -72,7 +72,7 @@ Configuration EndPointSetup::start(const LennardJonesModel& model, std::uint64_t
 
 std::string pair_file_name(std::size_t number) { return fmt::format("pair-{:04}.extxyz", number + 1); }
 
-void write_pair(OutputFolder& folder, std::size_t number, const ConfigurationPair& pair, const LennardJonesModel& model) {
+void write_pair(OutputFolder& folder, std::size_t number, const ConfigurationPair& pair, const Mixture& model) {
   folder.write(pair_file_name(number), [&](std::ostream& out) {
     const std::string distance = fmt::format("{}", pair.distance), steps = fmt::format("{}", pair.steps);
     write_frame(out, pair.start, model, {{"end", "first"}, {"distance", distance}, {"steps", steps}});
@@ -82,8 +82,7 @@ void write_pair(OutputFolder& folder, std::size_t number, const ConfigurationPai
 
 namespace {
 
-void write_equilibration(OutputFolder& folder, const EndPointRunResult& run, const EndPointOptions& options,
-                         const LennardJonesModel& model) {
+void write_equilibration(OutputFolder& folder, const EndPointRunResult& run, const EndPointOptions& options, const Mixture& model) {
   folder.write("endpoints-trace.csv", [&](std::ostream& out) {
     out << "step,time,temperature,potential_energy_per_particle,energy_per_particle,phase\n";
     for (std::size_t r = 0; r < run.trace.rows(); ++r)

@@ -16,7 +16,7 @@ class EndPointSetup {
   // A pair's distance where --distance is not given: 108 at N = 108, else 10 sqrt(N) [sigma].
   static double default_distance(std::size_t particles);
   // What to run; throws Error(bad_input) for anything out of range.
-  EndPointOptions resolve(const LennardJonesModel& model, std::size_t particles, std::uint64_t seed) const;
+  EndPointOptions resolve(const Mixture& model, std::size_t particles, std::uint64_t seed) const;
   // The configuration that molecular dynamics starts from: --start FILE, or an fcc crystal.
   Configuration start(const LennardJonesModel& model, std::uint64_t seed) const;
 
@@ -44,6 +44,6 @@ EndPoints make_end_points(const LennardJonesModel& model, const Configuration& s
 
 // "pair-0001.extxyz"
 std::string pair_file_name(std::size_t number);
-void write_pair(OutputFolder& folder, std::size_t number, const ConfigurationPair& pair, const LennardJonesModel& model);
+void write_pair(OutputFolder& folder, std::size_t number, const ConfigurationPair& pair, const Mixture& model);
 
 }  // namespace lanescape::program

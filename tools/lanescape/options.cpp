@@ -2,7 +2,9 @@
 #include <omp.h>
 
 #include <iostream>
+#include <utility>
 
+#include "configuration/rounding_overlaps.hpp"
 #include "core/error.hpp"
 #include "interaction/lennard_jones.hpp"
 #include "io/extended_xyz.hpp"
@@ -34,20 +36,34 @@ void CommonOptions::check() const {
 }
 
 void SystemOptions::add_to(Options& options) {
-  options.add("--model", model, "kob-andersen or lennard-jones");
+  options.add("--model", model, "kob-andersen, lennard-jones, hard-sphere or hard-sphere-binary");
   options.add("--model-file", model_file, "model file (TOML) instead of --model");
-  options.add("--cutoff", cutoff, "cutoff in units of sigma_ab [2.5]");
-  options.add("--images", images, "periodic images: all within the cutoff, or the minimum image only [all]");
-  options.add("--truncation", truncation, "shifted, plain or tail [shifted]");
+  options.add("--cutoff", cutoff, "cutoff of a soft model in units of sigma_ab [2.5]");
+  options.add("--images", images, "periodic images of a soft model: all within the cutoff, or the minimum image only [all]");
+  options.add("--truncation", truncation, "of a soft model: shifted, plain or tail [shifted]");
 }
 
-LennardJonesModel SystemOptions::resolve() const {
-  LennardJonesModel resolved = model_file.empty() ? named_model(model) : read_model_file(model_file);
-  if (cutoff) resolved.cutoff = *cutoff;
-  if (images) resolved.images = parse_image_rule(*images);
-  if (truncation) resolved.truncation = parse_truncation(*truncation);
-  resolved.check();
+Model SystemOptions::resolve() const {
+  Model resolved = model_file.empty() ? named_model(model) : read_model_file(model_file);
+  if (auto* soft = std::get_if<LennardJonesModel>(&resolved)) {
+    if (cutoff) soft->cutoff = *cutoff;
+    if (images) soft->images = parse_image_rule(*images);
+    if (truncation) soft->truncation = parse_truncation(*truncation);
+    soft->check();
+  } else if (const char* given = cutoff ? "--cutoff" : images ? "--images" : truncation ? "--truncation" : nullptr) {
+    throw_bad_input(fmt::format("{} is not allowed with model {}: hard spheres have no cutoff, image rule or truncation", given,
+                                mixture_of(resolved).name));
+  }
   return resolved;
+}
+
+LennardJonesModel SystemOptions::resolve_soft(const char* subcommand) const {
+  Model resolved = resolve();
+  if (auto* soft = std::get_if<LennardJonesModel>(&resolved)) return std::move(*soft);
+  throw_bad_input(
+      fmt::format("{}: model {} is made of hard spheres: allowed are kob-andersen, lennard-jones and model files of kind "
+                  "lennard-jones",
+                  subcommand, mixture_of(resolved).name));
 }
 
 void check_separations_in(const std::string& file, const Configuration& configuration, const LennardJonesModel& model) {
@@ -58,14 +74,40 @@ void check_separations_in(const std::string& file, const Configuration& configur
   }
 }
 
-Configuration read_first_frame(const std::string& file, const LennardJonesModel& model) {
-  ExtendedXyzReader reader(file, model);
+namespace {
+
+// Reads on to the end: a count that does not match its lines shows in the frames that follow.
+Configuration first_of(ExtendedXyzReader& reader) {
   Configuration first = reader.next()->configuration;
-  // A count that does not match its lines shows in the frames that follow.
   while (reader.next()) {
   }
+  return first;
+}
+
+}  // namespace
+
+Configuration read_first_frame(const std::string& file, const LennardJonesModel& model) {
+  ExtendedXyzReader reader(file, model);
+  Configuration first = first_of(reader);
   check_separations_in(file, first, model);
   return first;
+}
+
+HardFrame read_hard_frame(const std::string& file) {
+  ExtendedXyzReader reader(file, RadiusColumn::required);
+  Configuration first = first_of(reader);
+  return {std::move(first), reader.mixture()};
+}
+
+HardFrame read_hard_frame(const std::string& file, const HardSphereModel& model, double overlap_tolerance) {
+  ExtendedXyzReader reader(file, model, RadiusColumn::required);
+  HardFrame frame{first_of(reader), model};
+  try {
+    frame.radius_factor = remove_rounding_overlaps(frame.configuration, overlap_tolerance);
+  } catch (const Error& error) {
+    throw Error(error.code(), fmt::format("{}: {}", file, error.what()));
+  }
+  return frame;
 }
 
 OutputFolder open_folder(const CommonOptions& common) {

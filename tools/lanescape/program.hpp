@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "configuration/configuration.hpp"
-#include "configuration/lennard_jones_model.hpp"
+#include "configuration/model.hpp"
 #include "core/error.hpp"
 #include "core/run_monitor.hpp"
 #include "dispatch/isa.hpp"
@@ -118,7 +118,7 @@ struct CommonOptions {
   void check() const;
 };
 
-// Which potential: the model, and how it is cut off.
+// Which model, and how a soft one is cut off.
 struct SystemOptions {
   std::string model = "kob-andersen";
   std::string model_file;
@@ -126,11 +126,25 @@ struct SystemOptions {
   std::optional<std::string> images, truncation;
 
   void add_to(Options& options);
-  LennardJonesModel resolve() const;
+  // Throws Error(bad_input) for options of soft models with hard spheres.
+  Model resolve() const;
+  // For a subcommand that knows soft models only, which the message for others names.
+  LennardJonesModel resolve_soft(const char* subcommand) const;
 };
 
 // The first frame of a file, all of which must be sound, without overlaps; throws Error(bad_input) naming the file.
 Configuration read_first_frame(const std::string& file, const LennardJonesModel& model);
+// Hard spheres of a file: the first frame, and the factor by which rounding_overlap_factor() had its radii scaled.
+struct HardFrame {
+  Configuration configuration;
+  Mixture mixture;  // the file's species
+  double radius_factor = 1.0;
+};
+// The first frame of a file, all of which must be sound, with any species and its radii as they are.
+HardFrame read_hard_frame(const std::string& file);
+// The same with the model's species, and without overlaps up to the tolerance [s_ij]; deeper ones throw Error(bad_input) naming the
+// file.
+HardFrame read_hard_frame(const std::string& file, const HardSphereModel& model, double overlap_tolerance);
 // check_separations() of interaction/ with the file's name before what it says.
 void check_separations_in(const std::string& file, const Configuration& configuration, const LennardJonesModel& model);
 

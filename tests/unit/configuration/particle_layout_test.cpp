@@ -90,6 +90,14 @@ TEST_P(ParticleLayoutSizes, AreWholeVectorsOnAlignedMemory) {
 
 INSTANTIATE_TEST_SUITE_P(Odd, ParticleLayoutSizes, ::testing::Values(1, 2, 4, 7, 8, 9, 10, 11, 40, 41, 108));
 
+TEST(ParticleLayout, ValuesPerParticleLieInTheirSlotsAndThePaddingIsAsAsked) {
+  const ParticleLayout layout({1, 0, 1}, 2);
+  const AlignedArray values = layout.per_slot(std::vector<double>{5.0, 6.0, 7.0}, -1.0);
+  ASSERT_EQ(values.size(), layout.slots());
+  for (std::size_t slot = 0; slot < values.size(); ++slot)
+    EXPECT_EQ(values[slot], slot == 0 ? 6.0 : slot == 8 ? 5.0 : slot == 9 ? 7.0 : -1.0) << slot;
+}
+
 TEST(ParticleLayout, NoParticlesTakeNoSlots) {
   const ParticleLayout layout({}, 2);
   EXPECT_EQ(layout.size(), 0u);

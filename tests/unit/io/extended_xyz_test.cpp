@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "configuration/hard_sphere_model.hpp"
+#include "configuration/lennard_jones_model.hpp"
 #include "test_files.hpp"
 
 namespace lanescape {
@@ -221,6 +223,79 @@ TEST(ExtendedXyz, EveryPrefixOfAFileIsRefusedOrEndsInTheLastNumber) {
   }
 }
 
+std::string hard_comment(const std::string& properties = "species:S:1:pos:R:3:radius:R:1") {
+  return "Lattice=\"4 0 0 0 5 0 0 0 6\" Properties=" + properties;
+}
+std::string with_radius(const std::string& radius) { return "1\n" + hard_comment() + "\nAr 0 1 2 " + radius + "\n"; }
+
+TEST(ExtendedXyz, RadiiAreReadWhereTheyAreRequired) {
+  const TemporaryFolder folder;
+  const auto path = folder.file(
+      "hard.extxyz", "2\n" + hard_comment("radius:R:1:id:I:1:pos:R:3:species:S:1") + "\n0.7 1 0 1 2 Xe\n+5e-1 2 1 1 2 Ar\n");
+  const Frame result = read_single_frame(path, hard_sphere_binary(), RadiusColumn::required);
+  EXPECT_EQ(result.configuration.radii, (std::vector<double>{0.7, 0.5}));
+  EXPECT_EQ(result.configuration.species, (std::vector<int>{0, 1}));
+  EXPECT_EQ(result.configuration.positions, (std::vector<double>{0, 1, 2, 1, 1, 2}));
+  EXPECT_TRUE(read_single_frame(path, hard_sphere_binary()).configuration.radii.empty());
+}
+
+TEST(ExtendedXyz, AnIgnoredRadiusColumnMayHoldAnything) {
+  const Frame result = read("1\n" + hard_comment("species:S:1:radius:S:2:pos:R:3") + "\nNi large -1 0 1 2\n");
+  EXPECT_EQ(result.configuration.positions, (std::vector<double>{0, 1, 2}));
+  EXPECT_TRUE(result.configuration.radii.empty());
+}
+
+TEST(ExtendedXyz, SpeciesNotKnownBeforehandAreNumberedInOrderOfAppearance) {
+  const TemporaryFolder folder;
+  const std::string particles = "\nKr 0 1 2 1\nAr 1 1 2 0.5\nKr 2 1 2 1\n";
+  const auto path = folder.file("any.extxyz", "3\n" + hard_comment() + particles + "1\n" + hard_comment() + "\nXe 0 1 2 2\n");
+  ExtendedXyzReader reader(path, RadiusColumn::required);
+  EXPECT_TRUE(reader.mixture().species.empty());
+  EXPECT_EQ(reader.next()->configuration.species, (std::vector<int>{0, 1, 0}));
+  EXPECT_EQ(reader.next()->configuration.species, (std::vector<int>{2}));
+  ASSERT_EQ(reader.mixture().species.size(), 3u);
+  EXPECT_EQ(reader.mixture().find_species("Kr"), 0);
+  EXPECT_EQ(reader.mixture().find_species("Ar"), 1);
+  EXPECT_EQ(reader.mixture().find_species("Xe"), 2);
+}
+
+TEST(ExtendedXyz, MoreSpeciesThanElementsAreRefused) {
+  std::string content = "119\n" + comment + "\n";
+  for (int i = 0; i < 119; ++i) content += "X" + std::to_string(i) + " 0 0 0\n";
+  const TemporaryFolder folder;
+  const auto path = folder.file("many.extxyz", content);
+  const std::string message = refusal([&] { ExtendedXyzReader(path).next(); });
+  expect_contains(message, path.string() + ":121: ");
+  expect_contains(message, "'X118' is one too many: at most 118");
+}
+
+class RadiusRefusal : public ::testing::TestWithParam<BadFile> {};
+
+TEST_P(RadiusRefusal, NamesFileLineAndWhatIsAllowed) {
+  const BadFile& bad = GetParam();
+  const TemporaryFolder folder;
+  const auto path = folder.file("bad.extxyz", bad.content);
+  const std::string message = refusal([&] { read_frames(path, hard_sphere(), RadiusColumn::required); });
+  expect_contains(message, path.string() + ":" + std::to_string(bad.line) + ": ");
+  expect_contains(message, bad.mentions);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Radii, RadiusRefusal,
+    ::testing::Values(
+        BadFile{"NoProperties", "1\nLattice=\"4 0 0 0 5 0 0 0 6\"\nAr 0 1 2\n", 2, "pos:R:3:radius:R:1 is needed"},
+        BadFile{"NoColumn", "1\n" + comment + "\nAr 0 1 2\n", 2, "radius 0 times: hard spheres need radius:R:1"},
+        BadFile{"ColumnTwice", "1\n" + hard_comment("species:S:1:pos:R:3:radius:R:1:radius:R:1") + "\nAr 0 1 2 1 1\n", 2,
+                "radius 2 times"},
+        BadFile{"Integers", "1\n" + hard_comment("species:S:1:pos:R:3:radius:I:1") + "\nAr 0 1 2 1\n", 2, "radius:I:1"},
+        BadFile{"ThreeOfThem", "1\n" + hard_comment("species:S:1:pos:R:3:radius:R:3") + "\nAr 0 1 2 1 1 1\n", 2, "radius:R:3"},
+        BadFile{"OneIsMissing", with_radius(""), 3, "4 columns"},
+        BadFile{"IsZero", with_radius("0"), 3, "radius '0' is not allowed: a finite number above 0"},
+        BadFile{"IsNegative", with_radius("-0.5"), 3, "'-0.5'"}, BadFile{"IsNan", with_radius("nan"), 3, "'nan'"},
+        BadFile{"IsInfinite", with_radius("inf"), 3, "'inf'"}, BadFile{"IsAWord", with_radius("big"), 3, "'big'"},
+        BadFile{"Overflows", with_radius("1e400"), 3, "'1e400'"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
 Configuration awkward_configuration() {
   Configuration configuration;
   configuration.box.length = {4.481404746557165, 1.0 / 3.0 * 16.0, 7.0};
@@ -262,6 +337,30 @@ TEST(ExtendedXyz, ForcesAreAColumnOfThree) {
             "1\nLattice=\"4 0 0 0 5 0 0 0 6\" Properties=species:S:1:pos:R:3:forces:R:3 pbc=\"T T T\" step=3\n"
             "Ni 1 2 3.5 0.1 -7 1e+30\n");
   EXPECT_EQ(read(out.str()).configuration.positions, configuration.positions);
+}
+
+TEST(ExtendedXyz, RadiiAreAColumnAfterThePositions) {
+  const Configuration written{Box{{4.0, 5.0, 6.0}}, {0, 1}, {1.0, 2.0, 3.5, 0.0, 0.0, 0.0}, {0.7, 1.0 / 3.0}};
+  std::ostringstream out;
+  write_frame(out, written, hard_sphere_binary(), {});
+  EXPECT_EQ(out.str(),
+            "2\nLattice=\"4 0 0 0 5 0 0 0 6\" Properties=species:S:1:pos:R:3:radius:R:1 pbc=\"T T T\"\n"
+            "Xe 1 2 3.5 0.7\nAr 0 0 0 0.3333333333333333\n");
+  const TemporaryFolder folder;
+  const auto path = folder.file("hard.extxyz", out.str());
+  EXPECT_EQ(read_single_frame(path, hard_sphere_binary(), RadiusColumn::required).configuration.radii, written.radii);
+}
+
+TEST(ExtendedXyz, RadiiThatCouldNotBeReadBackAreNotWritten) {
+  Configuration configuration = awkward_configuration();
+  std::ostringstream out;
+  configuration.radii = {0.5, 0.5};
+  expect_contains(refusal([&] { write_frame(out, configuration, kob_andersen(), {}); }), "3 particles and 2 radii");
+  for (const double bad : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    configuration.radii = {0.5, bad, 0.5};
+    expect_contains(refusal([&] { write_frame(out, configuration, kob_andersen(), {}); }), "a finite number above 0");
+  }
+  EXPECT_EQ(out.str(), "");
 }
 
 TEST(ExtendedXyz, WhatCouldNotBeReadBackIsNotWritten) {

@@ -6,6 +6,7 @@
 #include <ostream>
 #include <sstream>
 #include <string>
+#include <variant>
 
 #include "test_files.hpp"
 
@@ -23,18 +24,14 @@ const std::string pairs =
     "[[pair]]\nspecies = ['P', 'Ni']\nepsilon = 1.5\nsigma = 0.8\n"
     "[[pair]]\nspecies = ['P', 'P']\nepsilon = 0.5\nsigma = 0.88\n";
 
-LennardJonesModel read(const std::string& content) {
+template <class Kind = LennardJonesModel>
+Kind read(const std::string& content) {
   const TemporaryFolder folder;
-  return read_model_file(folder.file("mixture.toml", content));
+  return std::get<Kind>(read_model_file(folder.file("mixture.toml", content)));
 }
 
-void expect_equal(const LennardJonesModel& a, const LennardJonesModel& b) {
+void expect_equal_mixtures(const Mixture& a, const Mixture& b) {
   EXPECT_EQ(a.name, b.name);
-  EXPECT_EQ(a.epsilon, b.epsilon);
-  EXPECT_EQ(a.sigma, b.sigma);
-  EXPECT_EQ(a.cutoff, b.cutoff);
-  EXPECT_EQ(a.truncation, b.truncation);
-  EXPECT_EQ(a.images, b.images);
   ASSERT_EQ(a.species.size(), b.species.size());
   for (std::size_t s = 0; s < a.species.size(); ++s) {
     EXPECT_EQ(a.species[s].name, b.species[s].name);
@@ -43,9 +40,23 @@ void expect_equal(const LennardJonesModel& a, const LennardJonesModel& b) {
   }
 }
 
+void expect_equal(const LennardJonesModel& a, const LennardJonesModel& b) {
+  expect_equal_mixtures(a, b);
+  EXPECT_EQ(a.epsilon, b.epsilon);
+  EXPECT_EQ(a.sigma, b.sigma);
+  EXPECT_EQ(a.cutoff, b.cutoff);
+  EXPECT_EQ(a.truncation, b.truncation);
+  EXPECT_EQ(a.images, b.images);
+}
+
+void expect_equal(const HardSphereModel& a, const HardSphereModel& b) {
+  expect_equal_mixtures(a, b);
+  EXPECT_EQ(a.diameters, b.diameters);
+}
+
 TEST(ModelFile, KobAndersenFromAFileIsTheNamedModel) {
   const LennardJonesModel model = read(
-      "kind = \"lennard-jones\"  # the only kind\nname = \"kob-andersen\"\ncutoff = 2.5\ntruncation = \"shifted\"\nimages = "
+      "kind = \"lennard-jones\"  # a comment\nname = \"kob-andersen\"\ncutoff = 2.5\ntruncation = \"shifted\"\nimages = "
       "\"all\"\n"
       "[[species]]\nname = \"Ni\"\nmass = 1.0\nfraction = 0.8\n[[species]]\nname = \"P\"\nfraction = 0.2\n" +
       pairs);
@@ -93,12 +104,40 @@ TEST(ModelFile, WrittenModelsReadBackBitForBit) {
   expect_equal(read(out.str()), model);
 }
 
+TEST(ModelFile, BinaryHardSpheresFromAFileAreTheNamedModel) {
+  const auto model = read<HardSphereModel>(
+      "kind = 'hard-sphere'\nname = 'hard-sphere-binary'\n[[species]]\nname = 'Xe'\nmass = 1\nfraction = 0.5\ndiameter = 1.4\n"
+      "[[species]]\nname = 'Ar'\nfraction = 0.5\ndiameter = 1\n");
+  expect_equal(model, hard_sphere_binary());
+}
+
+TEST(ModelFile, HardSpheresHaveTheDefaultsOfOtherModels) {
+  const auto model = read<HardSphereModel>("kind = 'hard-sphere'\n[[species]]\nname = 'Ar'\ndiameter = 2\n");
+  EXPECT_EQ(model.name, "mixture");
+  EXPECT_EQ(model.species[0].mass, 1.0);
+  EXPECT_EQ(model.species[0].fraction, 1.0);
+}
+
+TEST(ModelFile, WrittenHardSpheresReadBackBitForBit) {
+  HardSphereModel model = hard_sphere_binary();
+  model.name = "a \"quoted\" \\ name";
+  model.species[0] = {"it's", 1.0 / 3.0, 0.30000000000000004};
+  model.species[1].fraction = 0.7;
+  model.diameters = {1.4000000000000001, 1e-6};
+  std::ostringstream out;
+  write_model_file(out, model);
+  expect_equal(read<HardSphereModel>(out.str()), model);
+}
+
 TEST(ModelFile, AModelTheReaderWouldRefuseIsNotWritten) {
   LennardJonesModel spaced = lennard_jones(), full = kob_andersen(), broken = lennard_jones();
   spaced.species[0].name = "two words";
   full.species[1].fraction = 1.0;
   broken.sigma[0] = std::numeric_limits<double>::quiet_NaN();
+  HardSphereModel hollow = hard_sphere();
+  hollow.diameters[0] = 0.0;
   std::ostringstream out;
+  expect_contains(refusal([&] { write_model_file(out, hollow); }), "species Ar: diameter 0");
   expect_contains(refusal([&] { write_model_file(out, spaced); }), "model lennard-jones");
   expect_contains(refusal([&] { write_model_file(out, full); }), "fractions");
   expect_contains(refusal([&] { write_model_file(out, broken); }), "Ar-Ar");
@@ -134,7 +173,7 @@ INSTANTIATE_TEST_SUITE_P(
     Header, ModelFileRefusal,
     ::testing::Values(BadModel{"BrokenToml", "kind = \n", 1, "TOML"}, BadModel{"Binary", std::string("\0\1\2", 3), 1, "TOML"},
                       BadModel{"KeyTwice", kind + kind, 2, "TOML"}, BadModel{"NoKind", species + pairs, 1, "'kind' is missing"},
-                      BadModel{"UnknownKind", "\nkind = 'morse'\n", 2, "allowed is lennard-jones"},
+                      BadModel{"UnknownKind", "\nkind = 'morse'\n", 2, "allowed are lennard-jones, hard-sphere"},
                       BadModel{"KindIsNumber", "kind = 1\n", 1, "kind"},
                       BadModel{"UnknownKey", kind + "cut = 2.5\n" + species + pairs, 2, "unknown key 'cut': allowed are kind"},
                       BadModel{"EmptyName", kind + "name = ''\n" + species + pairs, 2, "name"},
@@ -181,6 +220,25 @@ INSTANTIATE_TEST_SUITE_P(
                       BadModel{"SigmaIsZero", argon + pair_section("['Ar', 'Ar']", "1", "0.0"), 7, "above 0"},
                       BadModel{"SigmaIsNan", argon + pair_section("['Ar', 'Ar']", "1", "nan"), 7, "finite"}),
     [](const auto& info) { return std::string(info.param.name); });
+
+std::string hard(const std::string& lines) { return "kind = 'hard-sphere'\n[[species]]\nname = 'Ar'\n" + lines; }
+
+INSTANTIATE_TEST_SUITE_P(HardSpheres, ModelFileRefusal,
+                         ::testing::Values(BadModel{"NoDiameter", hard(""), 2, "'diameter' is missing"},
+                                           BadModel{"DiameterIsZero", hard("diameter = 0\n"), 4, "from 1e-6 to 1e6"},
+                                           BadModel{"DiameterIsNegative", hard("diameter = -1.0\n"), 4, "from 1e-6 to 1e6"},
+                                           BadModel{"DiameterIsNan", hard("diameter = nan\n"), 4, "from 1e-6 to 1e6"},
+                                           BadModel{"DiameterIsInfinite", hard("diameter = inf\n"), 4, "from 1e-6 to 1e6"},
+                                           BadModel{"DiameterIsText", hard("diameter = '1'\n"), 4, "diameter is no number"},
+                                           BadModel{"UnknownKey", hard("diameter = 1\nsigma = 1\n"), 5,
+                                                    "unknown key 'sigma': allowed are name, mass, fraction, diameter"},
+                                           BadModel{"Pairs", hard("diameter = 1\n") + pair_section("['Ar', 'Ar']"), 5,
+                                                    "unknown key 'pair': allowed are kind, name, species"},
+                                           BadModel{"Cutoff", "cutoff = 2.5\n" + hard("diameter = 1\n"), 1, "unknown key 'cutoff'"},
+                                           BadModel{"DiameterOfASoftSpecies", one_species("diameter = 1\n"), 4,
+                                                    "unknown key 'diameter'"},
+                                           BadModel{"FractionsOfTooMuch", hard("diameter = 1\nfraction = 0.9\n"), 2, "a sum of 1"}),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 TEST(ModelFile, AMissingFileIsRefusedByName) {
   const TemporaryFolder folder;

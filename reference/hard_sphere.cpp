@@ -1,0 +1,270 @@
+#include "reference/hard_sphere.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace lanescape::reference {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double dot(const Vector& a, const Vector& b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
+
+/// Nearest image of to - from.
+Vector separation(const double* from, const double* to, const Vector& box) {
+  Vector d;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    d[axis] = to[axis] - from[axis];
+    d[axis] = d[axis] - box[axis] * std::nearbyint(d[axis] / box[axis]);
+  }
+  return d;
+}
+
+void check_box(const Vector& box) {
+  for (const double edge : box)
+    if (!(edge > 0.0) || !std::isfinite(edge))
+      throw std::invalid_argument("hard_sphere: box edge " + std::to_string(edge) + " is not positive and finite");
+}
+
+void check(std::span<const double> positions, std::span<const double> radii, const Vector& box) {
+  check_box(box);
+  if (positions.size() != 3 * radii.size())
+    throw std::invalid_argument("hard_sphere: " + std::to_string(positions.size()) + " coordinates for " +
+                                std::to_string(radii.size()) + " particles, three each are needed");
+  for (const double radius : radii)
+    if (!(radius >= 0.0) || !std::isfinite(radius))
+      throw std::invalid_argument("hard_sphere: radius " + std::to_string(radius) + " is negative or not finite");
+}
+
+/// visit(i, j, separation, r2, s) for all i < j.
+template <typename Visit>
+void for_each_pair(std::span<const double> positions, std::span<const double> radii, const Vector& box, Visit visit) {
+  check(positions, radii, box);
+  for (std::size_t i = 0; i < radii.size(); ++i)
+    for (std::size_t j = i + 1; j < radii.size(); ++j) {
+      const Vector d = separation(&positions[3 * i], &positions[3 * j], box);
+      visit(i, j, d, dot(d, d), radii[i] + radii[j]);
+    }
+}
+
+Vector position_at(const FreeSphere& sphere, double time) {
+  Vector p;
+  for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = sphere.position[axis] + sphere.velocity[axis] * (time - sphere.time);
+  return p;
+}
+
+}  // namespace
+
+std::vector<Overlap> overlaps(std::span<const double> positions, std::span<const double> radii, const Vector& box) {
+  std::vector<Overlap> found;
+  for_each_pair(positions, radii, box, [&](std::size_t i, std::size_t j, const Vector& d, double r2, double s) {
+    if (r2 < s * s) found.push_back({i, j, std::sqrt(r2) - s, d});
+  });
+  return found;
+}
+
+bool any_overlap(std::span<const double> positions, std::span<const double> radii, const Vector& box) {
+  return !overlaps(positions, radii, box).empty();
+}
+
+double smallest_gap(std::span<const double> positions, std::span<const double> radii, const Vector& box) {
+  double smallest = kInfinity;
+  for_each_pair(positions, radii, box, [&](std::size_t, std::size_t, const Vector&, double r2, double s) {
+    smallest = std::min(smallest, std::sqrt(r2) - s);
+  });
+  return smallest;
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> pairs_within(std::span<const double> positions, std::span<const double> radii,
+                                                              const Vector& box, double reach) {
+  if (!(reach >= 0.0)) throw std::invalid_argument("pairs_within: the reach must not be negative");
+  std::vector<std::pair<std::size_t, std::size_t>> found;
+  for_each_pair(positions, radii, box, [&](std::size_t i, std::size_t j, const Vector&, double r2, double s) {
+    const double t = s + reach;
+    if (r2 < t * t) found.emplace_back(i, j);
+  });
+  return found;
+}
+
+double fictitious_energy(FictitiousPotential potential, double r, double s) {
+  const double x = r / s;
+  if (!(x < 1.0)) return 0.0;
+  switch (potential) {
+    case FictitiousPotential::harmonic:
+      return s * s * (1.0 - x) * (1.0 - x) / 2.0;
+    case FictitiousPotential::linear:
+      return s * s * (1.0 - x);
+    case FictitiousPotential::cubic:
+      return s * s * s * (x * x * x / 3.0 - x * x / 2.0 + 1.0 / 6.0);
+  }
+  throw std::invalid_argument("fictitious_energy: no such potential");
+}
+
+double fictitious_force(FictitiousPotential potential, double r, double s) {
+  const double x = r / s;
+  if (!(x < 1.0)) return 0.0;
+  switch (potential) {
+    case FictitiousPotential::harmonic:
+      return s * (1.0 - x);
+    case FictitiousPotential::linear:
+      return s;
+    case FictitiousPotential::cubic:
+      return s * s * x * (1.0 - x);
+  }
+  throw std::invalid_argument("fictitious_force: no such potential");
+}
+
+std::vector<double> fictitious_forces(std::span<const double> positions, std::span<const double> radii, const Vector& box,
+                                      FictitiousPotential potential) {
+  std::vector<double> forces(positions.size(), 0.0);
+  for (const Overlap& pair : overlaps(positions, radii, box)) {
+    const double r = std::sqrt(dot(pair.separation, pair.separation));
+    if (r == 0.0) continue;
+    const double force_over_r = fictitious_force(potential, r, radii[pair.i] + radii[pair.j]) / r;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      forces[3 * pair.i + axis] -= force_over_r * pair.separation[axis];
+      forces[3 * pair.j + axis] += force_over_r * pair.separation[axis];
+    }
+  }
+  return forces;
+}
+
+// |d + w tau| = s + a tau, squared: f(tau) = p tau^2 + 2 q tau + c = 0 with p = w2 - a^2, q = d.w - s a, c = r2 - s^2. Wanted
+// is the first tau >= 0 from which on f is negative. Without growth p = w2 and q = b.
+// - q < 0, c <= 0: in contact or overlapping, and approaching: now.
+// - q < 0, c > 0: the smaller root where p > 0, the only positive one where p <= 0: (-q - sqrt(q^2 - p c))/p in both cases.
+//   Near contact that subtracts two nearly equal numbers, and p may vanish; the same root as c/(sqrt(q^2 - p c) - q) adds
+//   two positive ones and is as exact as c.
+// - q >= 0, p >= 0: f does not fall; never.
+// - q >= 0, p < 0: the surfaces part at first and growth wins in the end; f falls through zero at the larger root,
+//   (-q - sqrt(q^2 - p c))/p, here without cancellation. No root: they overlap for ever.
+double collision_time(const FreeSphere& i, const FreeSphere& j, double now, const Vector& box) {
+  const Vector d = separation(position_at(i, now).data(), position_at(j, now).data(), box);
+  Vector w;
+  for (std::size_t axis = 0; axis < 3; ++axis) w[axis] = j.velocity[axis] - i.velocity[axis];
+  const double s = (i.radius + i.growth * now) + (j.radius + j.growth * now);
+  const double a = i.growth + j.growth;
+  const double p = dot(w, w) - a * a;
+  const double q = dot(d, w) - s * a;
+  const double c = dot(d, d) - s * s;
+
+  if (q >= 0.0 && p >= 0.0) return kInfinity;
+  if (q < 0.0 && c <= 0.0) return now;
+  const double discriminant = q * q - p * c;
+  if (discriminant < 0.0) return kInfinity;
+  const double root = std::sqrt(discriminant);
+  const double tau = q < 0.0 ? c / (root - q) : (-q - root) / p;
+  if (s + a * tau < 0.0) return kInfinity;  // shrinking spheres that have vanished: a root of the square alone
+  return now + std::max(tau, 0.0);
+}
+
+double image_horizon(const std::vector<FreeSphere>& spheres, const Vector& box) {
+  double radius = 0.0;
+  double speed_squared = 0.0;
+  for (const FreeSphere& sphere : spheres) {
+    radius = std::max(radius, sphere.radius);
+    speed_squared = std::max(speed_squared, dot(sphere.velocity, sphere.velocity));
+  }
+  const double room = 0.5 * std::min({box[0], box[1], box[2]}) - 2.0 * radius;
+  if (!(room > 0.0)) throw std::invalid_argument("image_horizon: every box edge must exceed two of the largest diameters");
+  return speed_squared > 0.0 ? room / (2.0 * std::sqrt(speed_squared)) : kInfinity;
+}
+
+Contact fly_to_contact(std::vector<FreeSphere>& spheres, const Vector& box, double until) {
+  check_box(box);
+  if (!std::isfinite(until)) throw std::invalid_argument("fly_to_contact: the time to stop at must be finite");
+  if (spheres.empty() || until < spheres.front().time) return {};
+  for (;;) {
+    const double now = spheres.front().time;
+    Contact first;
+    for (std::size_t i = 0; i < spheres.size(); ++i)
+      for (std::size_t j = i + 1; j < spheres.size(); ++j) {
+        const double time = collision_time(spheres[i], spheres[j], now, box);
+        if (time < first.time) first = {time, i, j};
+      }
+    const double horizon = now + image_horizon(spheres, box);
+    const double target = std::min({first.time, horizon, until});
+    for (FreeSphere& sphere : spheres) {
+      sphere.position = position_at(sphere, target);
+      sphere.time = target;
+    }
+    if (first.time <= target) return first;
+    if (until <= target) return {};
+  }
+}
+
+Collision elastic_collision(const Vector& separation, const Vector& relative_velocity, double mass_i, double mass_j) {
+  if (!(mass_i > 0.0) || !(mass_j > 0.0)) throw std::invalid_argument("elastic_collision: masses must be positive");
+  const double b = dot(separation, relative_velocity);
+  const double b_over_r2 = b / dot(separation, separation);
+  Collision collision;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    collision.velocity_change_i[axis] = 2.0 * mass_j / (mass_i + mass_j) * b_over_r2 * separation[axis];
+    collision.velocity_change_j[axis] = -2.0 * mass_i / (mass_i + mass_j) * b_over_r2 * separation[axis];
+  }
+  collision.virial = 2.0 * (mass_i * mass_j / (mass_i + mass_j)) * std::abs(b);
+  return collision;
+}
+
+EventDriven::EventDriven(std::span<const double> positions, std::span<const double> velocities, std::span<const double> radii,
+                         std::span<const double> masses, const Vector& box)
+    : spheres_(radii.size()), masses_(masses.begin(), masses.end()), box_(box) {
+  check(positions, radii, box);
+  if (velocities.size() != positions.size() || masses.size() != radii.size())
+    throw std::invalid_argument("EventDriven: three velocity components and one mass are needed for each particle");
+  for (const double mass : masses)
+    if (!(mass > 0.0)) throw std::invalid_argument("EventDriven: masses must be positive");
+  if (any_overlap(positions, radii, box)) throw std::invalid_argument("EventDriven: the spheres overlap at the start");
+  for (std::size_t i = 0; i < spheres_.size(); ++i) {
+    spheres_[i].radius = radii[i];
+    std::copy_n(&positions[3 * i], 3, spheres_[i].position.begin());
+    std::copy_n(&velocities[3 * i], 3, spheres_[i].velocity.begin());
+  }
+}
+
+bool EventDriven::step(double until) {
+  const Contact contact = fly_to_contact(spheres_, box_, until);
+  time_ = std::max(time_, std::min(contact.time, until));
+  if (contact.time > until) return false;
+  FreeSphere& i = spheres_[contact.i];
+  FreeSphere& j = spheres_[contact.j];
+  Vector w;
+  for (std::size_t axis = 0; axis < 3; ++axis) w[axis] = j.velocity[axis] - i.velocity[axis];
+  const Collision collision =
+      elastic_collision(separation(i.position.data(), j.position.data(), box_), w, masses_[contact.i], masses_[contact.j]);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    i.velocity[axis] += collision.velocity_change_i[axis];
+    j.velocity[axis] += collision.velocity_change_j[axis];
+  }
+  virial_ += collision.virial;
+  ++collisions_;
+  return true;
+}
+
+double EventDriven::kinetic_energy() const {
+  double energy = 0.0;
+  for (std::size_t i = 0; i < spheres_.size(); ++i) energy += 0.5 * masses_[i] * dot(spheres_[i].velocity, spheres_[i].velocity);
+  return energy;
+}
+
+std::vector<double> EventDriven::positions() const {
+  std::vector<double> all;
+  for (const FreeSphere& sphere : spheres_) all.insert(all.end(), sphere.position.begin(), sphere.position.end());
+  return all;
+}
+
+std::vector<double> EventDriven::velocities() const {
+  std::vector<double> all;
+  for (const FreeSphere& sphere : spheres_) all.insert(all.end(), sphere.velocity.begin(), sphere.velocity.end());
+  return all;
+}
+
+double EventDriven::compressibility() const {
+  const double n = static_cast<double>(spheres_.size());
+  const double temperature = 2.0 * kinetic_energy() / (3.0 * n - 3.0);
+  return 1.0 + virial_ / (3.0 * n * temperature * time_);
+}
+
+}  // namespace lanescape::reference

@@ -1,0 +1,39 @@
+#include "configuration/mixture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace lanescape {
+
+int Mixture::find_species(std::string_view symbol) const {
+  std::string names;
+  for (std::size_t s = 0; s < species.size(); ++s) {
+    if (species[s].name == symbol) return static_cast<int>(s);
+    names += (s ? ", " : "") + species[s].name;
+  }
+  throw_bad_input(fmt::format("unknown species '{}': model {} has {}", symbol, name, names));
+}
+
+bool Mixture::has_equal_masses() const {
+  return std::all_of(species.begin(), species.end(), [&](const Species& s) { return s.mass == species.front().mass; });
+}
+
+void Mixture::check_species() const {
+  if (species.empty()) throw_bad_input(fmt::format("model {} has no species", name));
+  for (const Species& s : species) {
+    if (!(s.mass > 0.0) || !std::isfinite(s.mass))
+      throw_bad_input(fmt::format("species {}: mass {} is not allowed, it must be finite and above 0", s.name, s.mass));
+    if (!(s.fraction >= 0.0 && s.fraction <= 1.0))
+      throw_bad_input(fmt::format("species {}: fraction {} is not between 0 and 1", s.name, s.fraction));
+    const auto namesakes =
+        std::count_if(species.begin(), species.end(), [&](const Species& other) { return other.name == s.name; });
+    if (s.name.empty() || namesakes != 1)
+      throw_bad_input(fmt::format("species name '{}' must be given, and to one species only", s.name));
+  }
+}
+
+}  // namespace lanescape

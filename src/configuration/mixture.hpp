@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lanescape {
+
+struct Species {
+  std::string name;       // chemical symbol used in files
+  double mass = 1.0;      // [m]
+  double fraction = 1.0;  // of the particles, for generated starts; floor(N fraction) each, the first species takes the rest
+};
+
+// What soft and hard models have in common.
+struct Mixture {
+  std::string name;
+  std::vector<Species> species;
+
+  // Index of a species by its name; throws Error(bad_input) listing the names there are.
+  int find_species(std::string_view symbol) const;
+  bool has_equal_masses() const;
+  // Throws Error(bad_input) unless there are species, each with a name of its own, a mass above 0 and a fraction from 0 to 1.
+  void check_species() const;
+};
+
+}  // namespace lanescape

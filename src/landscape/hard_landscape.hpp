@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+
+#include "core/aligned_array.hpp"
+#include "dispatch/vector_algebra.hpp"
+#include "interaction/hard_sphere.hpp"
+
+namespace lanescape {
+
+// Where R is allowed or not, nothing in between: all that a stepper sees of a hard system. As with SoftLandscape one call is a
+// whole evaluation, R is all x, all y, all z, and each thread has its own.
+class HardLandscape {
+ public:
+  virtual ~HardLandscape() = default;
+
+  virtual std::size_t dimension() const = 0;
+  virtual std::size_t particles() const = 0;
+  virtual const VectorAlgebra& algebra() const = 0;
+
+  virtual bool allowed(const AlignedArray& position) = 0;
+  // The overlapping pairs, valid until the next call.
+  virtual ContactPairs find_contacts(const AlignedArray& position) = 0;
+  // Adds the fictitious forces between them to `force`.
+  virtual void add_contact_forces(kernels::ContactPotential potential, AlignedArray& force) = 0;
+  // How deep spheres overlap, at least 0 [sigma]; from scratch, and slower.
+  virtual double violation(const AlignedArray& position) = 0;
+};
+
+}  // namespace lanescape
