@@ -30,6 +30,7 @@ void combine(double* out, const double* x, double a, const double* u, double b, 
 void axpy(double* out, const double* x, double a, const double* u, std::size_t n) noexcept;
 DisplacementMoments displacement_moments(const double* a, const double* b, std::size_t slots) noexcept;
 
+void add_particle_lengths(double* lengths, const double* a, const double* b, std::size_t slots) noexcept;
 double largest_displacement_squared(const double* a, const double* b, std::size_t slots) noexcept;
 
 double peak_rounds(std::size_t rounds, double* sink) noexcept;

@@ -45,6 +45,8 @@ struct KernelTable {
   // Moments of b - a, arrays of 3 x slots.
   DisplacementMoments (*displacement_moments)(const double* a, const double* b, std::size_t slots) noexcept;
 
+  // Adds |b_j - a_j| to lengths[j] for each particle.
+  void (*add_particle_lengths)(double* lengths, const double* a, const double* b, std::size_t slots) noexcept;
   // The largest |b_j - a_j|^2 over particles, arrays of 3 x slots.
   double (*largest_displacement_squared)(const double* a, const double* b, std::size_t slots) noexcept;
 

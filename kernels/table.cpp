@@ -25,6 +25,7 @@ constinit const KernelTable table{
     .combine = combine,
     .axpy = axpy,
     .displacement_moments = displacement_moments,
+    .add_particle_lengths = add_particle_lengths,
     .largest_displacement_squared = largest_displacement_squared,
     .peak_rounds = peak_rounds,
 };

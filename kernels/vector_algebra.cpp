@@ -21,6 +21,13 @@ inline double ordered_sum(std::size_t n, Term term) noexcept {
   return sum_lanes((sum[0] + sum[1]) + (sum[2] + sum[3]));
 }
 
+inline Vector squared_displacement(const double* a, const double* b, std::size_t slots, std::size_t i) noexcept {
+  const Vector dx = load(b + i) - load(a + i);
+  const Vector dy = load(b + slots + i) - load(a + slots + i);
+  const Vector dz = load(b + 2 * slots + i) - load(a + 2 * slots + i);
+  return multiply_add(dz, dz, multiply_add(dy, dy, dx * dx));
+}
+
 }  // namespace
 
 double dot(const double* a, const double* b, std::size_t n) noexcept {
@@ -52,23 +59,22 @@ void axpy(double* out, const double* x, double a, const double* u, std::size_t n
 DisplacementMoments displacement_moments(const double* a, const double* b, std::size_t slots) noexcept {
   Vector second = broadcast(0.0), fourth = broadcast(0.0);
   for (std::size_t i = 0; i < slots; i += lanes) {
-    const Vector dx = load(b + i) - load(a + i);
-    const Vector dy = load(b + slots + i) - load(a + slots + i);
-    const Vector dz = load(b + 2 * slots + i) - load(a + 2 * slots + i);
-    const Vector square = multiply_add(dz, dz, multiply_add(dy, dy, dx * dx));
+    const Vector square = squared_displacement(a, b, slots, i);
     second += square;
     fourth = multiply_add(square, square, fourth);
   }
   return {sum_lanes(second), sum_lanes(fourth)};
 }
 
+void add_particle_lengths(double* lengths, const double* a, const double* b, std::size_t slots) noexcept {
+  for (std::size_t i = 0; i < slots; i += lanes)
+    store(lengths + i, load(lengths + i) + square_root(squared_displacement(a, b, slots, i)));
+}
+
 double largest_displacement_squared(const double* a, const double* b, std::size_t slots) noexcept {
   Vector largest = broadcast(0.0);
   for (std::size_t i = 0; i < slots; i += lanes) {
-    const Vector dx = load(b + i) - load(a + i);
-    const Vector dy = load(b + slots + i) - load(a + slots + i);
-    const Vector dz = load(b + 2 * slots + i) - load(a + 2 * slots + i);
-    largest = maximum(largest, multiply_add(dz, dz, multiply_add(dy, dy, dx * dx)));
+    largest = maximum(largest, squared_displacement(a, b, slots, i));
   }
   return largest_lane(largest);
 }

@@ -41,6 +41,10 @@ class VectorAlgebra {
   kernels::DisplacementMoments displacement_moments(const AlignedArray& from, const AlignedArray& to) const {
     return table_->displacement_moments(from.data(), to.data(), from.size() / 3);
   }
+  // Adds |to_j - from_j| to lengths[j], one per slot.
+  void add_particle_lengths(AlignedArray& lengths, const AlignedArray& from, const AlignedArray& to) const {
+    table_->add_particle_lengths(lengths.data(), from.data(), to.data(), lengths.size());
+  }
   // Of a collision-avoidance step: kernels::KernelTable::sphere_avoidance_trial.
   std::size_t avoidance_trial(AlignedArray& trial, const AlignedArray& position, AlignedArray& sum, AlignedArray& force,
                               double step) const {

@@ -45,6 +45,7 @@ void EndPointPair::exchange(Archive& archive) {
   archive.field("finish", finish);
   archive.field("distance", distance);
   archive.field("steps", steps);
+  archive.field("time", time);
 }
 
 double end_point_distance(const AlignedArray& a, const AlignedArray& b, const ParticleLayout& layout,
@@ -198,7 +199,7 @@ void EndPointGenerator::step() {
     const bool near = landscape_->algebra().distance(pair_start_, verlet_.position()) >= options_.distance;
     const double distance = near ? distance_so_far() : 0.0;
     if (distance >= options_.distance) {
-      pairs_.push_back({pair_start_, verlet_.position(), distance, done});
+      pairs_.push_back({pair_start_, verlet_.position(), distance, done, static_cast<double>(done) * options_.time_step});
       enter(pairs_.size() < options_.pairs ? Phase::between : Phase::done);
     } else if (done >= options_.max_pair_steps) {
       enter(Phase::distance_not_reached);

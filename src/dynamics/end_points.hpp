@@ -41,7 +41,8 @@ struct EndPointOptions {
 struct EndPointPair {
   AlignedArray start, finish;
   double distance = 0.0;    // |R_f - R_i| without the motion of the centre of mass [sigma]
-  std::uint64_t steps = 0;  // from one end to the other
+  std::uint64_t steps = 0;  // from one end to the other; collisions of hard spheres
+  double time = 0.0;        // likewise
   void exchange(Archive& archive);
 };
 
@@ -64,6 +65,8 @@ class EndPointGenerator {
   bool equilibrated() const { return phase_ >= Phase::settle && phase_ <= Phase::done; }
 
   const VelocityVerlet& verlet() const { return verlet_; }
+  // For who goes on where the protocol has settled.
+  VelocityVerlet& verlet() { return verlet_; }
   const std::vector<EndPointPair>& pairs() const { return pairs_; }
   // Mean temperature of the last check, and since the check was passed.
   double checked_temperature() const { return checked_temperature_; }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -103,35 +104,34 @@ void HardSphereList::add_contact_forces(kernels::ContactPotential potential, Ali
   spheres_->table().sphere_contact_forces(list_, contacts_, contact_count_, potential, force.data(), force.size() / 3);
 }
 
-void check_no_overlap(const Configuration& configuration, const kernels::KernelTable& table) {
+double sphere_gap(const Configuration& configuration, std::size_t i, std::size_t j) {
+  std::array<double, 3> d{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    d[axis] = configuration.box.nearest_image(axis, configuration.positions[3 * j + axis] - configuration.positions[3 * i + axis]);
+  return std::sqrt((d[0] * d[0] + d[1] * d[1]) + d[2] * d[2]) - (configuration.radii[i] + configuration.radii[j]);
+}
+
+void check_box_holds_spheres(const Configuration& configuration) {
   const double largest = 2.0 * *std::max_element(configuration.radii.begin(), configuration.radii.end());
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (!(configuration.box.length[axis] >= 2.0 * largest))
       throw_bad_input(fmt::format("box edge {} along axis {} is not allowed: at least twice the largest diameter {} is needed",
                                   configuration.box.length[axis], axis + 1, largest));
+}
+
+void check_no_overlap(const Configuration& configuration, const kernels::KernelTable& table) {
+  check_box_holds_spheres(configuration);
+  // One species: slots are particles.
   const ParticleLayout layout(std::vector<int>(configuration.size(), 0), 1);
   HardSphereOverlap spheres(configuration.box, layout, configuration.radii, table);
-  const AlignedArray positions = layout.to_slots(configuration.positions);
-  const auto& pairs = spheres.pairs_within(positions, 0.0);
+  const auto& pairs = spheres.pairs_within(layout.to_slots(configuration.positions), 0.0);
   if (pairs.empty()) return;
-  // One species: slots are particles. The deepest one is named.
-  double deepest = 0.0;
-  kernels::SpherePair worst = pairs.front();
-  for (const auto& pair : pairs) {
-    const auto i = static_cast<std::size_t>(pair.first), j = static_cast<std::size_t>(pair.second);
-    double squared = 0.0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double d =
-          configuration.box.nearest_image(axis, configuration.positions[3 * j + axis] - configuration.positions[3 * i + axis]);
-      squared += d * d;
-    }
-    const double depth = configuration.radii[i] + configuration.radii[j] - std::sqrt(squared);
-    if (depth <= deepest) continue;
-    deepest = depth;
-    worst = pair;
-  }
-  throw_bad_input(fmt::format("particles {} and {} overlap by {}: spheres may touch but not overlap ({} such pairs)", worst.first,
-                              worst.second, deepest, pairs.size()));
+  const auto gap = [&](const kernels::SpherePair& pair) {
+    return sphere_gap(configuration, static_cast<std::size_t>(pair.first), static_cast<std::size_t>(pair.second));
+  };
+  const auto deepest = *std::min_element(pairs.begin(), pairs.end(), [&](const auto& a, const auto& b) { return gap(a) < gap(b); });
+  throw_bad_input(fmt::format("particles {} and {} overlap by {}: spheres may touch but not overlap ({} such pairs)", deepest.first,
+                              deepest.second, -gap(deepest), pairs.size()));
 }
 
 }  // namespace lanescape

@@ -21,8 +21,11 @@ struct ContactPairs {
   kernels::SpherePair operator[](std::size_t k) const { return {first[places[k]], second[places[k]]}; }
 };
 
-// Throws Error(bad_input) naming pair and depth where two spheres overlap, and where a box edge is below twice the largest
-// diameter, where a sphere would touch two images of another.
+// r_ij - s_ij of two particles, nearest image [sigma].
+double sphere_gap(const Configuration& configuration, std::size_t i, std::size_t j);
+// Throws Error(bad_input) where a box edge is below twice the largest diameter: a sphere could touch two images of another.
+void check_box_holds_spheres(const Configuration& configuration);
+// The same, and naming pair and depth where two spheres overlap.
 void check_no_overlap(const Configuration& configuration, const kernels::KernelTable& table);
 
 // Overlaps of hard spheres over all pairs, by the kernels of one instruction set; decisions are exact (kernels::SphereInput) and

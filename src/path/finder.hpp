@@ -7,7 +7,6 @@
 #include <string>
 
 #include "core/archive.hpp"
-#include "landscape/soft_landscape.hpp"
 #include "path/path_statistics.hpp"
 #include "path/recorder.hpp"
 #include "stepper/direct.hpp"
@@ -35,8 +34,9 @@ inline const char* to_string(Outcome outcome) {
 
 struct FinderOptions {
   std::uint64_t max_steps = 1'000'000'000;
-  std::uint64_t patience = 1000;  // accepted steps without progress after which a path is stalled
-  std::size_t frames = 100;       // configurations kept between the two ends
+  // Accepted steps without progress after which a path is stalled. Hard spheres make long detours: theirs is this times 1000.
+  std::uint64_t patience = 1000;
+  std::size_t frames = 100;  // configurations kept between the two ends
 };
 
 // Walks from R_i to R_f with a stepper that makes direct steps and detours (PHYSICS 3). Everything the rest of the path depends
@@ -44,17 +44,17 @@ struct FinderOptions {
 template <class Stepper>
 class PathFinder {
  public:
-  PathFinder(const SoftLandscape& landscape, Stepper stepper, AlignedArray start, AlignedArray goal, double landscape_energy,
+  PathFinder(const VectorAlgebra& algebra, Stepper stepper, AlignedArray start, AlignedArray goal, std::size_t particles,
              const FinderOptions& options)
-      : algebra_(&landscape.algebra()),
+      : algebra_(&algebra),
         stepper_(std::move(stepper)),
         options_(options),
-        landscape_energy_(landscape_energy),
         position_(std::move(start)),
         goal_(std::move(goal)),
         to_goal_(position_.size(), 0.0),
         next_(position_.size(), 0.0),
         best_distance_(algebra_->distance(position_, goal_)),
+        statistics_(position_.size() / 3, particles),
         recorder_(options.frames, best_distance_) {}
 
   Outcome outcome() const { return outcome_; }
@@ -105,15 +105,15 @@ class PathFinder {
     if (!kind)
       return end(Outcome::stalled, fmt::format("{}, at a distance of {:.6g} from the goal", stepper_.failure(), at.distance));
     ++(*kind == StepKind::direct ? direct_steps_ : detour_steps_);
-    statistics_.add(algebra_->displacement_moments(position_, next_));
-    largest_violation_ = std::max(largest_violation_, stepper_.energy() - landscape_energy_);
+    statistics_.add_step(*algebra_, position_, next_);
+    largest_violation_ = std::max(largest_violation_, stepper_.violation());
     position_.swap(next_);
   }
 
   // The last displacement, counted in the length but not as a step.
   void hop(double distance) {
     if (!recorder_.trace().wants(steps())) record(distance);
-    statistics_.add(algebra_->displacement_moments(position_, goal_));
+    statistics_.add_hop(*algebra_, position_, goal_);
     position_ = goal_;
     end(Outcome::reached, "");
   }
@@ -134,14 +134,13 @@ class PathFinder {
 
   // `distance` from the point just accepted to the goal.
   void record(double distance) {
-    recorder_.trace().add({static_cast<double>(steps()), statistics_.length(), distance, stepper_.energy(),
+    recorder_.trace().add({static_cast<double>(steps()), statistics_.length(), distance, stepper_.monitored(),
                            static_cast<double>(direct_steps_), statistics_.last_participation_number()});
   }
 
   const VectorAlgebra* algebra_;
   Stepper stepper_;
   FinderOptions options_;
-  double landscape_energy_;
   AlignedArray position_, goal_, to_goal_, next_;
   Outcome outcome_ = Outcome::running;
   std::string reason_;

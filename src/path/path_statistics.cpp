@@ -1,21 +1,46 @@
 #include "path/path_statistics.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lanescape {
 
-void PathStatistics::add(const kernels::DisplacementMoments& moments) {
+PathStatistics::PathStatistics(std::size_t slots, std::size_t particles)
+    : particles_(static_cast<double>(particles)),
+      participation_(participation_bins, 0),
+      alpha2_(alpha2_bins, 0),
+      particle_lengths_(slots, 0.0) {}
+
+void PathStatistics::add_displacement(const VectorAlgebra& algebra, const AlignedArray& from, const AlignedArray& to) {
+  const kernels::DisplacementMoments moments = algebra.displacement_moments(from, to);
   if (!(moments.second > 0.0)) return;
   const double step = std::sqrt(moments.second);
   last_participation_ = moments.second * moments.second / moments.fourth;
   length_ += step;
   weighted_participation_ += step * last_participation_;
+  algebra.add_particle_lengths(particle_lengths_, from, to);
+}
+
+void PathStatistics::add_step(const VectorAlgebra& algebra, const AlignedArray& from, const AlignedArray& to) {
+  add_displacement(algebra, from, to);
+  const double share = last_participation_ / particles_, alpha2 = 0.6 / share - 1.0;
+  // n is at most N, but for rounding; a step of one and the same length for c particles lies at the upper edge of its bin.
+  const auto bin = static_cast<std::size_t>(std::max(0.0, std::ceil(share * participation_bins - 1e-9) - 1.0));
+  ++participation_[std::min(bin, participation_bins - 1)];
+  ++alpha2_[std::min(static_cast<std::size_t>((alpha2 + 1.0) / alpha2_width), alpha2_bins - 1)];
+}
+
+void PathStatistics::add_hop(const VectorAlgebra& algebra, const AlignedArray& from, const AlignedArray& to) {
+  add_displacement(algebra, from, to);
 }
 
 void PathStatistics::exchange(Archive& archive) {
   archive.field("length", length_);
   archive.field("weighted_participation", weighted_participation_);
   archive.field("last_participation", last_participation_);
+  archive.field("participation_histogram", participation_);
+  archive.field("alpha2_histogram", alpha2_);
+  archive.field("particle_lengths", particle_lengths_);
 }
 
 }  // namespace lanescape

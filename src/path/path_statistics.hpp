@@ -1,28 +1,48 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
+#include "core/aligned_array.hpp"
 #include "core/archive.hpp"
-#include "views.hpp"
+#include "dispatch/vector_algebra.hpp"
 
 namespace lanescape {
 
 // What is summed along a path, in constant memory.
 class PathStatistics {
  public:
-  // One displacement, the accepted steps and the last hop alike.
-  void add(const kernels::DisplacementMoments& moments);
+  // Bins of n/N over (0, 1], and of alpha_2 from -1 on, the last one open.
+  static constexpr std::size_t participation_bins = 100, alpha2_bins = 400;
+  static constexpr double alpha2_width = 0.2;
+
+  PathStatistics(std::size_t slots, std::size_t particles);
+
+  void add_step(const VectorAlgebra& algebra, const AlignedArray& from, const AlignedArray& to);
+  // The last displacement, to the goal: it has length but is not a step.
+  void add_hop(const VectorAlgebra& algebra, const AlignedArray& from, const AlignedArray& to);
 
   double length() const { return length_; }
   // Mean over displacements, weighted with their length, of n = (sum dr^2)^2 / sum dr^4 ([G] Eq. 4.17).
   double participation_number() const { return length_ > 0.0 ? weighted_participation_ / length_ : 0.0; }
   // Of the last displacement.
   double last_participation_number() const { return last_participation_; }
+  // Over steps: how many had n/N, or alpha_2 = 0.6 N/n - 1, in each bin.
+  const std::vector<std::uint64_t>& participation_histogram() const { return participation_; }
+  const std::vector<std::uint64_t>& alpha2_histogram() const { return alpha2_; }
+  // g_j = sum |dr_j| of each slot.
+  const AlignedArray& particle_lengths() const { return particle_lengths_; }
 
   void exchange(Archive& archive);
 
  private:
+  void add_displacement(const VectorAlgebra& algebra, const AlignedArray& from, const AlignedArray& to);
+
+  double particles_;
   double length_ = 0.0, weighted_participation_ = 0.0, last_participation_ = 0.0;
+  std::vector<std::uint64_t> participation_, alpha2_;
+  AlignedArray particle_lengths_;
 };
 
 }  // namespace lanescape

@@ -10,7 +10,9 @@
 #include <memory>
 
 #include "core/error.hpp"
+#include "interaction/hard_sphere.hpp"
 #include "interaction/lennard_jones.hpp"
+#include "landscape/hard_sphere_landscape.hpp"
 #include "landscape/kinematic_landscape.hpp"
 #include "landscape/lennard_jones_landscape.hpp"
 #include "stepper/contour.hpp"
@@ -21,7 +23,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Steps between looks at the outside world, and between checkpoints: about 3 ms and 2 s.
+// Steps between looks at the outside world, and between checkpoints: about 3 ms and 2 s, hard spheres 1 ms and 1 s.
 std::uint64_t steps_per_chunk(std::size_t particles) { return std::clamp<std::uint64_t>(30'000 / (particles + 1), 1, 1000); }
 constexpr std::uint64_t chunks_per_checkpoint = 700;
 
@@ -32,6 +34,10 @@ std::unique_ptr<SoftLandscape> make_landscape(const LennardJonesModel& model, co
   return std::make_unique<KinematicLandscape>(std::move(landscape), metric);
 }
 
+bool is_hard(PathMethod method) { return method == PathMethod::avoidance; }
+// Hard spheres make long detours.
+constexpr std::uint64_t hard_patience = 1000;
+
 // A pair as the search sees it, all of it checked.
 struct PreparedPair {
   ParticleLayout layout;
@@ -40,18 +46,25 @@ struct PreparedPair {
   double distance = 0.0, landscape_energy = 0.0;
 };
 
-PreparedPair prepare(const LennardJonesModel& model, const ConfigurationPair& pair, std::size_t number,
-                     const PathRunOptions& options, Isa isa) {
+PreparedPair prepare(const Model& model, const ConfigurationPair& pair, std::size_t number, const PathRunOptions& options,
+                     Isa isa) {
   const std::string where = fmt::format("pair {}", number + 1);
   check_end_points(pair, model, where);
-  const ParticleLayout layout(pair.start.species, model.species.size());
-  PreparedPair prepared{layout, KinematicMetric(model, layout), layout.to_slots(pair.start.positions),
+  const Mixture& mixture = mixture_of(model);
+  const ParticleLayout layout(pair.start.species, mixture.species.size());
+  PreparedPair prepared{layout, KinematicMetric(mixture, layout), layout.to_slots(pair.start.positions),
                         layout.to_slots(pair.finish.positions)};
   prepared.metric.to_kinematic(prepared.start);
   prepared.metric.to_kinematic(prepared.goal);
-  const auto landscape = make_landscape(model, pair.start.box, prepared.layout, isa, prepared.metric);
+  prepared.distance = VectorAlgebra(kernel_table(isa)).distance(prepared.start, prepared.goal);
+  const auto* soft = std::get_if<LennardJonesModel>(&model);
+  if (soft == nullptr) {
+    if (!prepared.metric.is_euclidean())
+      throw_bad_input(fmt::format("{}: hard spheres of unequal masses have no path yet: equal masses are needed", where));
+    return prepared;
+  }
+  const auto landscape = make_landscape(*soft, pair.start.box, prepared.layout, isa, prepared.metric);
   const double highest_end = std::max(landscape->energy(prepared.start), landscape->energy(prepared.goal));
-  prepared.distance = landscape->algebra().distance(prepared.start, prepared.goal);
   prepared.landscape_energy = options.landscape_energy.value_or(highest_end);
   if (!(highest_end <= prepared.landscape_energy))
     throw_bad_input(fmt::format("{}: an end point has energy {}, above the landscape energy {}", where, highest_end,
@@ -71,6 +84,28 @@ struct Search {
 };
 
 template <class Stepper>
+void add_histograms(PathResult& result, const PathFinder<Stepper>& finder) {
+  const PathStatistics& statistics = finder.statistics();
+  constexpr double share = 1.0 / PathStatistics::participation_bins;
+  result.histograms.push_back({"participation_ratio", share, share, statistics.participation_histogram()});
+  result.histograms.push_back(
+      {"alpha_2", PathStatistics::alpha2_width - 1.0, PathStatistics::alpha2_width, statistics.alpha2_histogram()});
+  if constexpr (std::is_same_v<Stepper, AvoidanceStepper>) {
+    using Range = AvoidanceStatistics::Range;
+    const AvoidanceStatistics& overlaps = finder.stepper().statistics();
+    const auto add = [&](const char* quantity, const std::vector<std::uint64_t>& counts) {
+      result.histograms.push_back({quantity, 0.0, 1.0, counts});
+    };
+    add("overlapping_partners", overlaps.partners());
+    add("moved_particles", overlaps.moved());
+    add("groups", overlaps.group_numbers());
+    add("group_size_few_groups", overlaps.group_sizes(Range::few_groups));
+    add("group_size_some_groups", overlaps.group_sizes(Range::some_groups));
+    add("group_size_many_groups", overlaps.group_sizes(Range::many_groups));
+  }
+}
+
+template <class Stepper>
 PathResult summarise(const Search<Stepper>& search, const ConfigurationPair& pair, const PreparedPair& prepared, bool reversed,
                      bool interrupted) {
   const auto& finder = search.finder;
@@ -87,6 +122,9 @@ PathResult summarise(const Search<Stepper>& search, const ConfigurationPair& pai
   result.largest_violation = finder.largest_violation();
   result.seconds = search.seconds;
   result.trace = finder.recorder().trace();
+  add_histograms(result, finder);
+  for (std::size_t j = 0; j < prepared.layout.size(); ++j)
+    result.particle_lengths.push_back(finder.statistics().particle_lengths()[prepared.layout.slot_of(j)]);
   result.distance = prepared.distance;
   result.landscape_energy = prepared.landscape_energy;
   result.frames.push_back(reversed ? pair.finish : pair.start);
@@ -104,7 +142,7 @@ PathResult summarise(const Search<Stepper>& search, const ConfigurationPair& pai
 
 // What the searches of one run share.
 struct Run {
-  const LennardJonesModel& model;
+  const Model& model;
   const std::vector<ConfigurationPair>& pairs;
   std::vector<PreparedPair> prepared;
   const PathRunOptions& options;
@@ -113,8 +151,8 @@ struct Run {
   RunMonitor& monitor;
   std::vector<std::atomic<double>> covered;  // of the way, 0 ... 1 per pair
 
-  Run(const LennardJonesModel& m, const std::vector<ConfigurationPair>& p, const PathRunOptions& o, Isa i,
-      const CheckpointOptions& c, RunMonitor& w)
+  Run(const Model& m, const std::vector<ConfigurationPair>& p, const PathRunOptions& o, Isa i, const CheckpointOptions& c,
+      RunMonitor& w)
       : model(m), pairs(p), options(o), isa(i), checkpoint(c), monitor(w), covered(p.size()) {
     for (std::size_t k = 0; k < pairs.size(); ++k) prepared.push_back(prepare(model, pairs[k], k, options, isa));
   }
@@ -127,16 +165,47 @@ struct Run {
   }
 };
 
+// What a stepper walks on, and the stepper.
+template <class Stepper>
+struct Walk {
+  std::unique_ptr<SoftLandscape> landscape;
+  Stepper stepper;
+
+  Walk(const Run& run, const ConfigurationPair& pair, const PreparedPair& prepared)
+      : landscape(
+            make_landscape(std::get<LennardJonesModel>(run.model), pair.start.box, prepared.layout, run.isa, prepared.metric)),
+        stepper(*landscape, prepared.landscape_energy, options(run)) {}
+  static typename Stepper::Options options(const Run& run) {
+    typename Stepper::Options options;
+    options.direct_step = run.options.step_length();
+    return options;
+  }
+  double violation(const AlignedArray&) { return 0.0; }  // the finder knows it of every point
+};
+
+template <>
+struct Walk<AvoidanceStepper> {
+  std::unique_ptr<HardSphereLandscape> landscape;
+  AvoidanceStepper stepper;
+
+  Walk(const Run& run, const ConfigurationPair& pair, const PreparedPair& prepared)
+      : landscape(std::make_unique<HardSphereLandscape>(pair.start.box, prepared.layout, pair.start.radii, run.isa)),
+        stepper(*landscape, {.direct_step = run.options.step_length(),
+                             .avoidance_step = run.options.avoidance_step,
+                             .potential = run.options.fictitious}) {}
+  double violation(const AlignedArray& position) { return landscape->violation(position); }
+};
+
 template <class Stepper>
 PathResult search_one_way(Run& run, std::size_t number, bool reversed) {
   const ConfigurationPair& pair = run.pairs[number];
   const PreparedPair& prepared = run.prepared[number];
-  const auto landscape = make_landscape(run.model, pair.start.box, prepared.layout, run.isa, prepared.metric);
-  typename Stepper::Options stepper_options;
-  stepper_options.direct_step = run.options.direct_step;
-  Search<Stepper> search{PathFinder<Stepper>(*landscape, Stepper(*landscape, prepared.landscape_energy, stepper_options),
+  Walk<Stepper> walk(run, pair, prepared);
+  FinderOptions finder_options = run.options.finder;
+  if (is_hard(run.options.method)) finder_options.patience *= hard_patience;
+  Search<Stepper> search{PathFinder<Stepper>(walk.landscape->algebra(), std::move(walk.stepper),
                                              reversed ? prepared.goal : prepared.start, reversed ? prepared.start : prepared.goal,
-                                             prepared.landscape_energy, run.options.finder)};
+                                             prepared.layout.size(), finder_options)};
   const auto file = run.checkpoint.folder / fmt::format("path-{:04}{}.h5", number + 1, reversed ? "-reverse" : "");
   if (run.checkpoint.enabled() && run.checkpoint.resume) load_checkpoint(file, search);
 
@@ -158,7 +227,11 @@ PathResult search_one_way(Run& run, std::size_t number, bool reversed) {
   }
   if (run.checkpoint.enabled() && was_running && !interrupted) save_checkpoint(file, search);
 
-  return summarise(search, pair, prepared, reversed, interrupted);
+  PathResult result = summarise(search, pair, prepared, reversed, interrupted);
+  // Hard spheres: what the lists may not have seen, once more and without them.
+  for (const AlignedArray& frame : finder.recorder().frames())
+    result.largest_violation = std::max(result.largest_violation, walk.violation(frame));
+  return result;
 }
 
 template <class Stepper>
@@ -172,51 +245,98 @@ PathResult search_pair(Run& run, std::size_t number) {
   return keep_backward ? backward : forward;
 }
 
+PathResult search_pair(Run& run, std::size_t number) {
+  switch (run.options.method) {
+    case PathMethod::contour:
+      return search_pair<ContourStepper>(run, number);
+    case PathMethod::escape:
+      return search_pair<EscapeStepper>(run, number);
+    case PathMethod::avoidance:
+      return search_pair<AvoidanceStepper>(run, number);
+  }
+  throw Error(ErrorCode::internal, "no such method");
+}
+
 }  // namespace
 
 PathMethod parse_path_method(std::string_view word) {
-  if (word == "contour") return PathMethod::contour;
-  if (word == "escape") return PathMethod::escape;
-  throw_bad_input(fmt::format("unknown method '{}': allowed are contour, escape", word));
+  for (const PathMethod method : {PathMethod::contour, PathMethod::escape, PathMethod::avoidance})
+    if (word == to_string(method)) return method;
+  throw_bad_input(fmt::format("unknown method '{}': allowed are contour, escape (soft particles), avoidance (hard spheres)", word));
 }
 
-const char* to_string(PathMethod method) { return method == PathMethod::contour ? "contour" : "escape"; }
+const char* to_string(PathMethod method) {
+  switch (method) {
+    case PathMethod::contour:
+      return "contour";
+    case PathMethod::escape:
+      return "escape";
+    case PathMethod::avoidance:
+      return "avoidance";
+  }
+  return "";
+}
 
-void check_end_points(const ConfigurationPair& pair, const LennardJonesModel& model, const std::string& where) {
+void check_method(PathMethod method, const Model& model) {
+  if (is_hard(method) == std::holds_alternative<HardSphereModel>(model)) return;
+  throw_bad_input(
+      fmt::format("method {} is not for model {}: contour and escape are for soft particles, avoidance for hard spheres",
+                  to_string(method), mixture_of(model).name));
+}
+
+double StepHistogram::mean() const {
+  double sum = 0.0, weight = 0.0;
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    sum += static_cast<double>(counts[k]) * (first + static_cast<double>(k) * width);
+    weight += static_cast<double>(counts[k]);
+  }
+  return weight > 0.0 ? sum / weight : 0.0;
+}
+
+void check_end_points(const ConfigurationPair& pair, const Model& model, const std::string& where) {
   if (!(pair.start.box == pair.finish.box)) throw_bad_input(where + ": the two end points have different boxes");
   if (pair.start.species != pair.finish.species)
     throw_bad_input(where + ": the two end points differ in composition or in the order of their particles");
+  if (pair.start.radii != pair.finish.radii) throw_bad_input(where + ": the two end points have different radii");
   if (pair.start.positions == pair.finish.positions) throw_bad_input(where + ": the two end points coincide");
   for (const Configuration* end : {&pair.start, &pair.finish}) {
     try {
-      check_separations(*end, model);
+      if (const auto* soft = std::get_if<LennardJonesModel>(&model))
+        check_separations(*end, *soft);
+      else
+        check_no_overlap(*end, kernel_table(available_isas().front()));
     } catch (const Error& error) {
       throw Error(error.code(), fmt::format("{}, {} end: {}", where, end == &pair.start ? "first" : "last", error.what()));
     }
   }
 }
 
+double PathRunOptions::step_length() const { return direct_step.value_or(is_hard(method) ? 1e-2 : 1e-3); }
+
 void PathRunOptions::check() const {
-  if (!(direct_step > 0.0 && direct_step <= 1.0))
-    throw_bad_input(fmt::format("step {} is not allowed: above 0 and at most 1", direct_step));
+  if (!(step_length() > 0.0 && step_length() <= 1.0))
+    throw_bad_input(fmt::format("step {} is not allowed: above 0 and at most 1", step_length()));
+  if (!(avoidance_step > 0.0 && avoidance_step <= 0.1))
+    throw_bad_input(fmt::format("avoidance step {} is not allowed: above 0 and at most 0.1", avoidance_step));
+  if (landscape_energy && is_hard(method)) throw_bad_input("hard spheres have no landscape energy: without it only");
   if (landscape_energy && !std::isfinite(*landscape_energy))
     throw_bad_input(fmt::format("landscape energy {} is not allowed: it must be finite", *landscape_energy));
   if (finder.max_steps == 0) throw_bad_input("the step limit must be at least 1");
   if (finder.frames > 100'000) throw_bad_input(fmt::format("{} frames are not allowed: at most 100000", finder.frames));
 }
 
-std::vector<PathResult> run_paths(const LennardJonesModel& model, const std::vector<ConfigurationPair>& pairs,
-                                  const PathRunOptions& options, Isa isa, const CheckpointOptions& checkpoint,
-                                  RunMonitor& monitor) {
+std::vector<PathResult> run_paths(const Model& model, const std::vector<ConfigurationPair>& pairs, const PathRunOptions& options,
+                                  Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor) {
   options.check();
   if (pairs.empty()) throw_bad_input("no pair of end points was given");
+  check_method(options.method, model);
 
   Run run(model, pairs, options, isa, checkpoint, monitor);
   std::vector<PathResult> results(pairs.size());
   std::vector<std::exception_ptr> failures(pairs.size());
   const auto one = [&](std::size_t k) noexcept {
     try {
-      results[k] = options.method == PathMethod::contour ? search_pair<ContourStepper>(run, k) : search_pair<EscapeStepper>(run, k);
+      results[k] = search_pair(run, k);
     } catch (...) {
       failures[k] = std::current_exception();
     }

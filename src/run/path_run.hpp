@@ -8,30 +8,47 @@
 #include <vector>
 
 #include "configuration/configuration.hpp"
-#include "configuration/lennard_jones_model.hpp"
+#include "configuration/model.hpp"
 #include "core/decimated_trace.hpp"
 #include "core/run_monitor.hpp"
 #include "dispatch/isa.hpp"
 #include "path/finder.hpp"
 #include "run/checkpoint.hpp"
 #include "run/end_point_run.hpp"
+#include "stepper/avoidance.hpp"
 
 namespace lanescape {
 
-enum class PathMethod { contour, escape };
+// Contour and escape for soft particles, avoidance for hard spheres.
+enum class PathMethod { contour, escape, avoidance };
 // Throws Error(bad_input) naming the allowed words.
 PathMethod parse_path_method(std::string_view word);
 const char* to_string(PathMethod method);
+// Throws Error(bad_input) where the method is not for this kind of model.
+void check_method(PathMethod method, const Model& model);
 
 struct PathRunOptions {
   PathMethod method = PathMethod::contour;
-  double direct_step = 1e-3;               // delta_di, in 3N space [sigma]
+  std::optional<double> direct_step;  // delta_di, in 3N space; else 0.001 soft, 0.01 hard [sigma]
+  double avoidance_step = 1e-4;       // delta_ca, of each particle that moves [sigma]
+  kernels::ContactPotential fictitious = kernels::ContactPotential::harmonic;
   std::optional<double> landscape_energy;  // E_L; else the higher of the two ends [epsilon]
   bool reverse = false;                    // search from the far end too and keep the shorter path
   FinderOptions finder;
   int threads = 1;  // paths searched at once; no effect on any result
+  double step_length() const;
   // Throws Error(bad_input) naming the option that is out of range.
   void check() const;
+};
+
+// How often a quantity of a path's steps took a value: entry k is for `first` + k `width`, its upper edge where values are not
+// whole numbers.
+struct StepHistogram {
+  std::string quantity;
+  double first, width;
+  std::vector<std::uint64_t> counts;
+
+  double mean() const;
 };
 
 struct PathResult {
@@ -43,8 +60,10 @@ struct PathResult {
   double participation_number = 0.0;  // n, mean over steps weighted with their length
   std::uint64_t direct_steps = 0, detour_steps = 0, evaluations = 0;
   std::vector<std::uint64_t> corrections;  // histogram of the stepper's inner iterations per detour
-  double landscape_energy = 0.0;           // E_L [epsilon]
-  double largest_violation = 0.0;          // largest V - E_L of an accepted point, at least 0 [epsilon]
+  double landscape_energy = 0.0;           // E_L, soft [epsilon]
+  double largest_violation = 0.0;  // soft: largest V - E_L of an accepted point; hard: deepest overlap in a frame; at least 0
+  std::vector<StepHistogram> histograms;
+  std::vector<double> particle_lengths;  // g_j of each particle, user's order [sigma]
   double seconds = 0.0;
   DecimatedTrace trace{PathRecorder::columns, PathRecorder::trace_rows};
   std::vector<Configuration> frames;  // from one end to the other, ends included
@@ -52,13 +71,14 @@ struct PathResult {
   double ratio_squared() const { return length > 0.0 ? distance * distance / (length * length) : 0.0; }
 };
 
-// Throws Error(bad_input) where the ends of a pair differ in box or composition, coincide or overlap; the message starts with
-// `where`.
-void check_end_points(const ConfigurationPair& pair, const LennardJonesModel& model, const std::string& where);
+// Throws Error(bad_input) where the ends of a pair differ in box, composition or radii, coincide or overlap; the message starts
+// with `where`.
+void check_end_points(const ConfigurationPair& pair, const Model& model, const std::string& where);
 
 // One path for each pair, paths in parallel. The results do not depend on the number of threads, nor on interruption and
-// resumption. Throws Error(bad_input) for a pair that check_end_points() refuses or with an end above a given landscape energy.
-std::vector<PathResult> run_paths(const LennardJonesModel& model, const std::vector<ConfigurationPair>& pairs,
-                                  const PathRunOptions& options, Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor);
+// resumption. Throws Error(bad_input) for a pair that check_end_points() refuses or with an end above a given landscape energy, and
+// for a method that is not for this kind of model.
+std::vector<PathResult> run_paths(const Model& model, const std::vector<ConfigurationPair>& pairs, const PathRunOptions& options,
+                                  Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor);
 
 }  // namespace lanescape

@@ -40,6 +40,7 @@ class AvoidanceStepper {
 
   double step_length() const { return options_.direct_step; }
   double monitored() const { return static_cast<double>(moved_); }  // particles moved by the last step
+  double violation() const { return 0.0; }                          // accepted points have no overlap, by an exact test
   std::uint64_t evaluations() const { return evaluations_; }        // of whole configurations for overlaps
   const std::string& failure() const { return failure_; }
   // How many avoidance steps took 1, 2, 3, ... trials after the failed direct one; the last entry counts all beyond.

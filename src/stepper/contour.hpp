@@ -27,7 +27,8 @@ class ContourStepper {
   std::optional<StepKind> step(const PathPoint& at, AlignedArray& next);
 
   double step_length() const { return options_.direct_step; }
-  double energy() const { return energy_; }                   // V at the last accepted point
+  double monitored() const { return energy_; }  // V at the last accepted point
+  double violation() const { return energy_ - landscape_energy_; }
   std::uint64_t evaluations() const { return evaluations_; }  // of V, with or without gradient
   const std::string& failure() const { return failure_; }
   // How many contour steps took k = 0, 1, 2, ... corrections; the last entry counts all beyond.

@@ -30,7 +30,8 @@ class EscapeStepper {
   std::optional<StepKind> step(const PathPoint& at, AlignedArray& next);
 
   double step_length() const { return options_.direct_step; }
-  double energy() const { return energy_; }
+  double monitored() const { return energy_; }  // V at the last accepted point
+  double violation() const { return energy_ - landscape_energy_; }
   std::uint64_t evaluations() const { return evaluations_; }
   const std::string& failure() const { return failure_; }
   // How many escape steps took 1, 2, 3, ... iterations of Eq. 3.11 (entry 0 stays 0); the last entry counts all beyond.

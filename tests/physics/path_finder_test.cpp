@@ -69,11 +69,11 @@ template <class Stepper>
 PathFinder<Stepper> finder_on_two_spheres(TwoSpheres& landscape, double degrees, double step, const FinderOptions& options = {}) {
   typename Stepper::Options stepping;
   stepping.direct_step = step;
-  return {landscape,
+  return {landscape.algebra(),
           Stepper(landscape, -1.0, stepping),
           landscape.layout().to_slots(two_spheres(3.0, 0.0)),
           landscape.layout().to_slots(two_spheres(3.0, degrees)),
-          -1.0,
+          landscape.particles(),
           options};
 }
 
@@ -163,8 +163,8 @@ TYPED_TEST(PathFinderWith, TakesTheStepsOfTheReferenceInALennardJonesLiquid) {
     const double limit = std::max(system.landscape.energy(cluster.start), system.landscape.energy(cluster.finish));
     typename TypeParam::Options stepping;
     stepping.direct_step = 5e-3;
-    PathFinder<TypeParam> finder(system.landscape, TypeParam(system.landscape, limit, stepping), cluster.start, cluster.finish,
-                                 limit, {});
+    PathFinder<TypeParam> finder(system.landscape.algebra(), TypeParam(system.landscape, limit, stepping), cluster.start,
+                                 cluster.finish, system.landscape.particles(), {});
     finder.advance(100'000);
 
     EXPECT_NEAR(limit, expected.landscape_energy, 1e-10 * std::fabs(limit));

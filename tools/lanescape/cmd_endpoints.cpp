@@ -17,9 +17,9 @@ Subcommand add_endpoints(CLI::App& app) {
   return {sub, [=](int& status) {
             state->common.check();
             const Isa isa = state->common.resolve_isa();
-            const LennardJonesModel model = state->system.resolve_soft("endpoints");
-            const Configuration start = state->setup.start(model, state->common.seed);
-            const EndPointOptions protocol = state->setup.resolve(model, start.size(), state->common.seed);
+            const Model model = state->system.resolve();
+            const Configuration start = state->setup.start(model, state->common, isa);
+            const EndPointProtocol protocol = state->setup.resolve(model, start.size(), state->common.seed);
             OutputFolder folder = open_folder(state->common);
             folder.write_run_file("endpoints", options->resolved());
             EndPoints ends = make_end_points(model, start, protocol, isa, folder, state->common);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "configuration/rounding_overlaps.hpp"
 #include "core/error.hpp"
 #include "end_point_options.hpp"
 #include "io/extended_xyz.hpp"
@@ -18,16 +19,21 @@ struct PathState {
   SystemOptions system;
   EndPointSetup setup;
   std::vector<std::string> pair_files;
-  std::string method = "contour";
+  std::optional<std::string> method, fictitious;
   bool reverse = false, plot = false;
-  double step = 1e-3;
-  std::optional<double> landscape_energy;
+  std::optional<double> step, avoidance_step, landscape_energy;
   std::uint64_t max_steps = FinderOptions{}.max_steps, frames = FinderOptions{}.frames;
 
-  PathRunOptions run_options() const {
+  PathRunOptions run_options(const Model& model) const {
     PathRunOptions options;
-    options.method = parse_path_method(method);
+    options.method = parse_path_method(method.value_or(std::holds_alternative<HardSphereModel>(model) ? "avoidance" : "contour"));
+    check_method(options.method, model);
+    if (options.method != PathMethod::avoidance && (avoidance_step || fictitious))
+      throw_bad_input(fmt::format("{} is not allowed with method {}: it is for avoidance",
+                                  avoidance_step ? "--avoidance-step" : "--fictitious", to_string(options.method)));
     options.direct_step = step;
+    options.avoidance_step = avoidance_step.value_or(options.avoidance_step);
+    if (fictitious) options.fictitious = parse_contact_potential(*fictitious);
     options.landscape_energy = landscape_energy;
     options.reverse = reverse;
     options.finder.max_steps = max_steps;
@@ -38,11 +44,26 @@ struct PathState {
   }
 };
 
-ConfigurationPair read_pair(const std::filesystem::path& file, const LennardJonesModel& model) {
-  std::vector<Frame> frames = read_frames(file, model);
+// Both frames of a pair of hard spheres with radii scaled by one factor, where a file's rounding makes some overlap.
+double scale_radii(ConfigurationPair& pair, double tolerance, const std::string& where) {
+  try {
+    const double factor = std::min(rounding_overlap_factor(pair.start, tolerance), rounding_overlap_factor(pair.finish, tolerance));
+    for (Configuration* end : {&pair.start, &pair.finish})
+      for (double& radius : end->radii) radius *= factor;
+    return factor;
+  } catch (const Error& error) {
+    throw Error(error.code(), fmt::format("{}: {}", where, error.what()));
+  }
+}
+
+// `least_factor` becomes the radius factor of this pair, if that is smaller.
+ConfigurationPair read_pair(const std::filesystem::path& file, const Model& model, double tolerance, double& least_factor) {
+  const bool hard = std::holds_alternative<HardSphereModel>(model);
+  std::vector<Frame> frames = read_frames(file, mixture_of(model), hard ? RadiusColumn::required : RadiusColumn::ignored);
   if (frames.size() != 2)
     throw_bad_input(fmt::format("{}: holds {} frames: a pair of end points is two", file.string(), frames.size()));
-  ConfigurationPair pair{std::move(frames[0].configuration), std::move(frames[1].configuration), 0.0, 0};
+  ConfigurationPair pair{std::move(frames[0].configuration), std::move(frames[1].configuration)};
+  if (hard) least_factor = std::min(least_factor, scale_radii(pair, tolerance, file.string()));
   check_end_points(pair, model, file.string());
   for (std::size_t k = 0; k < pair.start.positions.size(); ++k)
     pair.distance = std::hypot(pair.distance, pair.finish.positions[k] - pair.start.positions[k]);
@@ -50,11 +71,35 @@ ConfigurationPair read_pair(const std::filesystem::path& file, const LennardJone
 }
 
 // The pairs a resumed run was started with: its folder holds a copy of each.
-std::vector<ConfigurationPair> read_kept_pairs(const OutputFolder& folder, const LennardJonesModel& model) {
+std::vector<ConfigurationPair> read_kept_pairs(const OutputFolder& folder, const Model& model, double tolerance,
+                                               double& least_factor) {
   std::vector<ConfigurationPair> pairs;
   for (std::filesystem::path file; std::filesystem::exists(file = folder.path() / pair_file_name(pairs.size()));)
-    pairs.push_back(read_pair(file, model));
+    pairs.push_back(read_pair(file, model, tolerance, least_factor));
   return pairs;
+}
+
+bool is_soft(PathMethod method) { return method == PathMethod::contour || method == PathMethod::escape; }
+
+double displacement(const PathResult& path, std::size_t particle) {
+  double squared = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    squared += std::pow(path.frames.back().positions[3 * particle + axis] - path.frames.front().positions[3 * particle + axis], 2);
+  return std::sqrt(squared);
+}
+
+// Standard deviation of log10(g_j / DeltaR_j) over the particles that moved: how unequally they share the detour.
+double heterogeneity(const PathResult& path) {
+  double sum = 0.0, squares = 0.0, n = 0.0;
+  for (std::size_t j = 0; j < path.particle_lengths.size(); ++j) {
+    const double r = displacement(path, j);
+    if (!(r > 0.0)) continue;
+    const double x = std::log10(path.particle_lengths[j] / r);
+    sum += x;
+    squares += x * x;
+    n += 1.0;
+  }
+  return n > 0.0 ? std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n))) : 0.0;
 }
 
 Json to_json(const PathResult& path, PathMethod method, std::size_t particles) {
@@ -70,8 +115,10 @@ Json to_json(const PathResult& path, PathMethod method, std::size_t particles) {
   json["corrections"] = path.corrections;
   json["evaluations"] = path.evaluations;
   json["seconds"] = path.seconds;
-  json["landscape_energy"] = path.landscape_energy;
+  json["landscape_energy"] = is_soft(method) ? Json(path.landscape_energy) : Json();
   json["largest_violation"] = path.largest_violation;
+  for (const StepHistogram& h : path.histograms) json["mean_over_steps"][h.quantity] = h.mean();
+  if (complete) json["heterogeneity"] = heterogeneity(path);
   json["reversed"] = path.reversed;
   return json;
 }
@@ -91,8 +138,9 @@ void add_mean(Json& json, const std::vector<PathResult>& paths) {
   json["standard_error"] = n > 1.0 ? Json(std::sqrt(squares / (n * (n - 1.0)))) : Json();
 }
 
-void write_trace(std::ostream& out, const PathResult& path) {
-  out << "step,length,distance_to_goal,energy,direct_fraction,participation_ratio\n";
+void write_trace(std::ostream& out, const PathResult& path, PathMethod method) {
+  fmt::print(out, "step,length,distance_to_goal,{},direct_fraction,participation_ratio\n",
+             is_soft(method) ? "energy" : "moved_particles");
   const DecimatedTrace& trace = path.trace;
   double step_before = 0.0, direct_before = 0.0;
   for (std::size_t r = 0; r < trace.rows(); ++r) {
@@ -103,6 +151,20 @@ void write_trace(std::ostream& out, const PathResult& path) {
     step_before = step;
     direct_before = direct;
   }
+}
+
+void write_histograms(std::ostream& out, const PathResult& path) {
+  out << "quantity,value,steps\n";
+  for (const StepHistogram& h : path.histograms)
+    for (std::size_t k = 0; k < h.counts.size(); ++k)
+      if (h.counts[k] > 0) fmt::print(out, "{},{:.10g},{}\n", h.quantity, h.first + static_cast<double>(k) * h.width, h.counts[k]);
+}
+
+void write_particles(std::ostream& out, const PathResult& path, const Mixture& model) {
+  out << "particle,species,path_length,displacement\n";
+  for (std::size_t j = 0; j < path.particle_lengths.size(); ++j)
+    fmt::print(out, "{},{},{},{}\n", j, model.species[static_cast<std::size_t>(path.frames.front().species[j])].name,
+               path.particle_lengths[j], displacement(path, j));
 }
 
 void write_files(OutputFolder& folder, const std::vector<PathResult>& paths, PathMethod method, const Mixture& model) {
@@ -123,7 +185,9 @@ void write_files(OutputFolder& folder, const std::vector<PathResult>& paths, Pat
     folder.write(fmt::format("path-{:04}.extxyz", k + 1), [&](std::ostream& out) {
       for (const Configuration& frame : p.frames) write_frame(out, frame, model, {});
     });
-    folder.write(fmt::format("path-{:04}-trace.csv", k + 1), [&](std::ostream& out) { write_trace(out, p); });
+    folder.write(fmt::format("path-{:04}-trace.csv", k + 1), [&](std::ostream& out) { write_trace(out, p, method); });
+    folder.write(fmt::format("path-{:04}-steps.csv", k + 1), [&](std::ostream& out) { write_histograms(out, p); });
+    folder.write(fmt::format("path-{:04}-particles.csv", k + 1), [&](std::ostream& out) { write_particles(out, p, model); });
   }
 }
 
@@ -131,16 +195,18 @@ void write_files(OutputFolder& folder, const std::vector<PathResult>& paths, Pat
 struct PathInput {
   std::vector<ConfigurationPair> pairs;  // from files
   Configuration start;                   // without files: what the end points are made from
-  EndPointOptions protocol;
+  EndPointProtocol protocol;
+  double radius_factor = 1.0;
 };
 
-PathInput read_input(const PathState& state, const LennardJonesModel& model) {
+PathInput read_input(const PathState& state, const Model& model, Isa isa) {
   PathInput input;
   if (!state.pair_files.empty()) {
     if (!state.common.resume.empty()) return input;
-    for (const std::string& file : state.pair_files) input.pairs.push_back(read_pair(file, model));
+    for (const std::string& file : state.pair_files)
+      input.pairs.push_back(read_pair(file, model, state.setup.overlap_tolerance(), input.radius_factor));
   } else {
-    input.start = state.setup.start(model, state.common.seed);
+    input.start = state.setup.start(model, state.common, isa);
     input.protocol = state.setup.resolve(model, input.start.size(), state.common.seed);
   }
   return input;
@@ -158,11 +224,12 @@ bool add_paths(Json& json, const std::vector<PathResult>& paths, PathMethod meth
 Json run_path(PathState& state, const Options& options, const Options& setup_options, int& status) {
   state.common.check();
   const Isa isa = state.common.resolve_isa();
-  const LennardJonesModel model = state.system.resolve_soft("path");
-  const PathRunOptions path_options = state.run_options();
+  const Model model = state.system.resolve();
+  const Mixture& mixture = mixture_of(model);
+  const PathRunOptions path_options = state.run_options(model);
   const bool resumed = !state.common.resume.empty(), from_files = !state.pair_files.empty();
   if (state.plot && state.common.out.empty() && !resumed) throw_bad_input("--plot needs --out: the plots are files");
-  PathInput input = read_input(state, model);
+  PathInput input = read_input(state, model, isa);
   toml::table resolved = options.resolved();
   if (!from_files)
     for (auto& [key, value] : setup_options.resolved()) resolved.insert_or_assign(key, value);
@@ -177,9 +244,9 @@ Json run_path(PathState& state, const Options& options, const Options& setup_opt
     ends_made = ends.reached;
     result["endpoints"] = std::move(ends.json);
   } else if (resumed) {
-    input.pairs = read_kept_pairs(folder, model);
+    input.pairs = read_kept_pairs(folder, model, state.setup.overlap_tolerance(), input.radius_factor);
   } else {
-    for (std::size_t k = 0; k < input.pairs.size(); ++k) write_pair(folder, k, input.pairs[k], model);
+    for (std::size_t k = 0; k < input.pairs.size(); ++k) write_pair(folder, k, input.pairs[k], mixture);
   }
 
   std::vector<PathResult> paths;
@@ -188,11 +255,14 @@ Json run_path(PathState& state, const Options& options, const Options& setup_opt
     paths = run_paths(model, input.pairs, path_options, isa, {folder.checkpoints(), resumed}, monitor);
   }
   const bool all_reached = add_paths(result, paths, path_options.method) && ends_made;
-  result["model"] = model.name;
-  result["images"] = to_string(model.images);
+  result["model"] = mixture.name;
+  if (const auto* soft = std::get_if<LennardJonesModel>(&model))
+    result["images"] = to_string(soft->images);
+  else if (from_files)
+    result["radius_factor"] = input.radius_factor;
   result["isa"] = to_string(isa);
   status = all_reached ? done : goal_not_reached;
-  if (folder.exists()) write_files(folder, paths, path_options.method, model);
+  if (folder.exists()) write_files(folder, paths, path_options.method, mixture);
   write_result(folder, "path", resolved, result);
   if (state.plot) draw_plots(folder.path(), state.common);
   return result;
@@ -205,12 +275,15 @@ Subcommand add_path(CLI::App& app) {
   const auto options = std::make_shared<Options>(*sub);
   const auto state = std::make_shared<PathState>();
   options->add("--pair", state->pair_files, "files with two frames, the end points; without any, pairs are made as by endpoints");
-  options->add("--method", state->method, "contour or escape");
+  options->add("--method", state->method, "contour or escape; avoidance for hard spheres [contour, avoidance]");
   // Nothing to choose yet: a name for what is done anyway.
   sub->add_flag_function(
          "--faithful", [](std::int64_t) {}, "steps exactly as in the source (the default)")
       ->disable_flag_override();
-  options->add("--step", state->step, "length of a direct step in 3N space [sigma]");
+  options->add("--step", state->step, "length of a direct step in 3N space [sigma] [0.001; hard spheres 0.01]");
+  options->add("--avoidance-step", state->avoidance_step,
+               "of each particle that moves in a collision-avoidance step [sigma] [0.0001]");
+  options->add("--fictitious", state->fictitious, "potential between overlapping spheres: harmonic, linear or cubic [harmonic]");
   options->add("--landscape-energy", state->landscape_energy, "E_L [the higher energy of the two end points]");
   options->add_flag("--reverse", state->reverse, "search from the far end too and keep the shorter path");
   options->add("--max-steps", state->max_steps, "steps of one path before giving up");

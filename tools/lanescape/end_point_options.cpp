@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "configuration/hard_sphere_model.hpp"
 #include "configuration/lattice.hpp"
 #include "core/error.hpp"
 #include "io/extended_xyz.hpp"
@@ -13,8 +14,10 @@ namespace lanescape::program {
 
 void EndPointSetup::add_to(Options& options) {
   options.add("--particles", particles_, "number of particles N");
-  options.add("--density", density_, "number density [sigma^-3]");
-  options.add("--temperature", temperature_, "temperature [epsilon/k_B]");
+  options.add("--density", density_, "number density of a soft model [sigma^-3] [1.2]");
+  options.add("--temperature", temperature_, "temperature of a soft model [epsilon/k_B] [1]");
+  options.add("--packing-fraction", packing_fraction_, "of hard spheres [0.5]");
+  options.add("--start-method", start_method_, "of hard spheres: auto, lattice, contraction or growth [auto]");
   options.add("--distance", distance_, "distance between the ends of a pair [sigma] [108 at N = 108, else 10 sqrt(N)]");
   options.add("--distance-species", distance_species_, "count only this species' motion towards the distance");
   options.add("--pairs", pairs_, "number of pairs [1]");
@@ -32,22 +35,81 @@ void EndPointSetup::add_to(Options& options) {
   options.add("--settle-steps", settle_steps_, "before the first pair [1000000; quick 50000]");
   options.add("--between-steps", between_steps_, "between pairs [100000; quick 20000]");
   options.add("--max-pair-steps", max_pair_steps_, "of one pair before giving up [1000000000]");
+  options.add("--equilibration-collisions", equilibration_collisions_, "of hard spheres [10000000; quick 200000]");
+  options.add("--between-collisions", between_collisions_, "of hard spheres between pairs [100000; quick 20000]");
+  options.add("--max-pair-collisions", max_pair_collisions_, "of one pair of hard spheres before giving up [1000000000000]");
+  options.add("--overlap-tolerance", overlap_tolerance_, "of hard spheres in files, in units of s_ij: up to it radii are scaled");
 }
 
 double EndPointSetup::default_distance(std::size_t particles) {
   return particles == 108 ? 108.0 : 10.0 * std::sqrt(static_cast<double>(particles));
 }
 
-EndPointOptions EndPointSetup::resolve(const Mixture& model, std::size_t particles, std::uint64_t seed) const {
+namespace {
+
+template <class Target, class Given>
+void take(Target& target, const std::optional<Given>& given) {
+  if (given) target = *given;
+}
+
+// Options that the model has no use for are refused: whoever gives them expects something else.
+struct Given {
+  const char* name;
+  bool given;
+};
+void refuse(std::initializer_list<Given> options, const Model& model, const char* of) {
+  for (const Given& option : options)
+    if (option.given)
+      throw_bad_input(fmt::format("{} is not allowed with model {}: it is for {}", option.name, mixture_of(model).name, of));
+}
+
+}  // namespace
+
+EndPointProtocol EndPointSetup::resolve(const Model& model, std::size_t particles, std::uint64_t seed) const {
+  const double distance = distance_.value_or(default_distance(particles));
+  const Mixture& mixture = mixture_of(model);
+  std::optional<int> distance_species;
+  if (!distance_species_.empty()) distance_species = mixture.find_species(distance_species_);
+  if (std::holds_alternative<HardSphereModel>(model)) {
+    refuse({{"--density", density_.has_value()},
+            {"--temperature", temperature_.has_value()},
+            {"--time-step", time_step_.has_value()},
+            {"--melt-temperature", melt_temperature_.has_value()},
+            {"--melt-steps", melt_steps_.has_value()},
+            {"--cooling-steps", cooling_steps_.has_value()},
+            {"--rescale-interval", rescale_interval_.has_value()},
+            {"--check-steps", check_steps_.has_value()},
+            {"--check-interval", check_interval_.has_value()},
+            {"--check-tolerance", check_tolerance_.has_value()},
+            {"--max-checks", max_checks_.has_value()},
+            {"--settle-steps", settle_steps_.has_value()},
+            {"--between-steps", between_steps_.has_value()},
+            {"--max-pair-steps", max_pair_steps_.has_value()}},
+           model, "soft models");
+    HardEndPointOptions options;
+    if (quick_) options.make_quick();
+    options.distance = distance;
+    options.distance_species = distance_species;
+    options.seed = seed;
+    take(options.pairs, pairs_);
+    take(options.equilibration_collisions, equilibration_collisions_);
+    take(options.between_collisions, between_collisions_);
+    take(options.max_pair_collisions, max_pair_collisions_);
+    options.check();
+    return options;
+  }
+  refuse({{"--packing-fraction", packing_fraction_.has_value()},
+          {"--start-method", start_method_.has_value()},
+          {"--equilibration-collisions", equilibration_collisions_.has_value()},
+          {"--between-collisions", between_collisions_.has_value()},
+          {"--max-pair-collisions", max_pair_collisions_.has_value()}},
+         model, "hard spheres");
   EndPointOptions options;
   if (quick_) options.make_quick();
-  options.temperature = temperature_;
-  options.distance = distance_.value_or(default_distance(particles));
+  options.temperature = temperature_.value_or(1.0);
+  options.distance = distance;
   options.seed = seed;
-  if (!distance_species_.empty()) options.distance_species = model.find_species(distance_species_);
-  const auto take = [](auto& target, const auto& given) {
-    if (given) target = *given;
-  };
+  options.distance_species = distance_species;
   take(options.pairs, pairs_);
   take(options.time_step, time_step_);
   take(options.melt_temperature, melt_temperature_);
@@ -65,9 +127,22 @@ EndPointOptions EndPointSetup::resolve(const Mixture& model, std::size_t particl
   return options;
 }
 
-Configuration EndPointSetup::start(const LennardJonesModel& model, std::uint64_t seed) const {
-  if (start_file_.empty()) return fcc_start(model, particles_, density_, seed);
-  return read_first_frame(start_file_, model);
+Configuration EndPointSetup::start(const Model& model, const CommonOptions& common, Isa isa) const {
+  resolve(model, particles_, common.seed);  // refuses options before there is work to wait for
+  if (const auto* soft = std::get_if<LennardJonesModel>(&model)) {
+    if (start_file_.empty()) return fcc_start(*soft, particles_, density_.value_or(1.2), common.seed);
+    return read_first_frame(start_file_, *soft);
+  }
+  const auto& hard = std::get<HardSphereModel>(model);
+  if (!start_file_.empty()) {
+    if (packing_fraction_) throw_bad_input("--packing-fraction is not allowed with --start: the file has its own");
+    return read_hard_frame(start_file_, hard, overlap_tolerance_).configuration;
+  }
+  TerminalMonitor monitor(common.quiet);
+  const auto made = make_hard_sphere_start(hard, particles_, packing_fraction(), parse_start_method(start_method_.value_or("auto")),
+                                           common.seed, isa, monitor);
+  if (!made) throw Error(ErrorCode::goal_not_reached, "interrupted while the start was made");
+  return *made;
 }
 
 std::string pair_file_name(std::size_t number) { return fmt::format("pair-{:04}.extxyz", number + 1); }
@@ -82,13 +157,14 @@ void write_pair(OutputFolder& folder, std::size_t number, const ConfigurationPai
 
 namespace {
 
-void write_equilibration(OutputFolder& folder, const EndPointRunResult& run, const EndPointOptions& options, const Mixture& model) {
+void write_equilibration(OutputFolder& folder, const EndPointRunResult& run, const Mixture& model) {
   folder.write("endpoints-trace.csv", [&](std::ostream& out) {
-    out << "step,time,temperature,potential_energy_per_particle,energy_per_particle,phase\n";
-    for (std::size_t r = 0; r < run.trace.rows(); ++r)
-      fmt::print(out, "{:.0f},{},{},{},{},{}\n", run.trace.at(r, 0), run.trace.at(r, 0) * options.time_step, run.trace.at(r, 1),
-                 run.trace.at(r, 2), run.trace.at(r, 3),
-                 EndPointGenerator::name(static_cast<EndPointGenerator::Phase>(static_cast<std::uint64_t>(run.trace.at(r, 4)))));
+    const std::size_t last = run.trace_columns.size() - 1;
+    for (std::size_t c = 0; c <= last; ++c) out << run.trace_columns[c] << (c < last ? "," : "\n");
+    for (std::size_t r = 0; r < run.trace.rows(); ++r) {
+      for (std::size_t c = 0; c < last; ++c) fmt::print(out, "{},", run.trace.at(r, c));
+      out << run.phase_names[static_cast<std::size_t>(run.trace.at(r, last))] << '\n';
+    }
   });
   const RadialDistribution& g = run.radial_distribution;
   folder.write("radial-distribution.csv", [&](std::ostream& out) {
@@ -105,32 +181,45 @@ void write_equilibration(OutputFolder& folder, const EndPointRunResult& run, con
   });
 }
 
+EndPointRunResult run_protocol(const Model& model, const Configuration& start, const EndPointProtocol& protocol, Isa isa,
+                               const CheckpointOptions& checkpoint, RunMonitor& monitor) {
+  if (const auto* hard = std::get_if<HardSphereModel>(&model))
+    return run_hard_end_points(*hard, start, std::get<HardEndPointOptions>(protocol), isa, checkpoint, monitor);
+  return run_end_points(std::get<LennardJonesModel>(model), start, std::get<EndPointOptions>(protocol), isa, checkpoint, monitor);
+}
+
 }  // namespace
 
-EndPoints make_end_points(const LennardJonesModel& model, const Configuration& start, const EndPointOptions& options, Isa isa,
+EndPoints make_end_points(const Model& model, const Configuration& start, const EndPointProtocol& protocol, Isa isa,
                           OutputFolder& folder, const CommonOptions& common) {
   TerminalMonitor monitor(common.quiet);
-  EndPoints result{run_end_points(model, start, options, isa, {folder.checkpoints(), !common.resume.empty()}, monitor),
+  EndPoints result{run_protocol(model, start, protocol, isa, {folder.checkpoints(), !common.resume.empty()}, monitor),
                    Json::object(), false};
   const EndPointRunResult& run = result.run;
+  const bool hard = std::holds_alternative<HardSphereModel>(model);
   result.json["pairs"] = Json::array();
   for (std::size_t k = 0; k < run.pairs.size(); ++k) {
     const ConfigurationPair& pair = run.pairs[k];
-    write_pair(folder, k, pair, model);
+    write_pair(folder, k, pair, mixture_of(model));
     result.json["pairs"].push_back({{"file", folder.exists() ? Json((folder.path() / pair_file_name(k)).string()) : Json()},
                                     {"distance", pair.distance},
-                                    {"steps", pair.steps},
-                                    {"time", static_cast<double>(pair.steps) * options.time_step},
+                                    {hard ? "collisions" : "steps", pair.steps},
+                                    {"time", pair.time},
                                     {"seconds", run.pair_seconds[k]}});
   }
-  result.json["temperature"] = run.temperature;
-  result.json["temperature_convention"] = "3N";
-  result.json["outcome"] = run.interrupted ? "interrupted" : EndPointGenerator::name(run.phase);
+  if (hard) {
+    result.json["compressibility"] = run.compressibility;
+    result.json["compressibility_convention"] = "3N - 3";
+    result.json["packing_fraction"] = packing_fraction(start);
+  } else {
+    result.json["temperature"] = run.temperature;
+    result.json["temperature_convention"] = "3N";
+  }
+  result.json["outcome"] = run.interrupted ? "interrupted" : run.ended_as;
   result.json["seconds"] = run.seconds;
-  if (folder.exists()) write_equilibration(folder, run, options, model);
-  result.reached = run.phase == EndPointGenerator::Phase::done;
-  if (!result.reached && !run.interrupted)
-    say(common, fmt::format("{}: {} of {} pairs were made", EndPointGenerator::name(run.phase), run.pairs.size(), options.pairs));
+  if (folder.exists()) write_equilibration(folder, run, mixture_of(model));
+  result.reached = run.done;
+  if (!result.reached && !run.interrupted) say(common, fmt::format("{}: {} pairs were made", run.ended_as, run.pairs.size()));
   return result;
 }
 

@@ -2,11 +2,18 @@
 
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "program.hpp"
 #include "run/end_point_run.hpp"
 
 namespace lanescape::program {
+
+// The protocol of either family.
+using EndPointProtocol = std::variant<EndPointOptions, HardEndPointOptions>;
+
+// Largest relative depth up to which overlaps in a file are taken for its rounding.
+inline constexpr double default_overlap_tolerance = 1e-7;
 
 // The options from which end points are made, for `endpoints` and for `path` without --pair.
 class EndPointSetup {
@@ -15,31 +22,34 @@ class EndPointSetup {
 
   // A pair's distance where --distance is not given: 108 at N = 108, else 10 sqrt(N) [sigma].
   static double default_distance(std::size_t particles);
-  // What to run; throws Error(bad_input) for anything out of range.
-  EndPointOptions resolve(const Mixture& model, std::size_t particles, std::uint64_t seed) const;
-  // The configuration that molecular dynamics starts from: --start FILE, or an fcc crystal.
-  Configuration start(const LennardJonesModel& model, std::uint64_t seed) const;
+  // What to run; throws Error(bad_input) for anything out of range, and for options of the other family.
+  EndPointProtocol resolve(const Model& model, std::size_t particles, std::uint64_t seed) const;
+  // The configuration that molecular dynamics starts from: --start FILE; else an fcc crystal, or of dense hard spheres what
+  // --start-method makes of one.
+  Configuration start(const Model& model, const CommonOptions& common, Isa isa) const;
+  double packing_fraction() const { return packing_fraction_.value_or(0.5); }
+  double overlap_tolerance() const { return overlap_tolerance_; }
 
  private:
   std::uint64_t particles_ = 108;
-  double density_ = 1.2;
-  double temperature_ = 1.0;
-  std::optional<double> distance_;
+  std::optional<double> density_, temperature_, packing_fraction_, distance_;
+  std::optional<std::string> start_method_;
+  double overlap_tolerance_ = default_overlap_tolerance;
   std::string start_file_, distance_species_;
   bool quick_ = false;
   // Counts and tolerances, only where they are given: the rest follows from --quick.
   std::optional<std::uint64_t> pairs_, melt_steps_, cooling_steps_, rescale_interval_, check_steps_, check_interval_, max_checks_,
-      settle_steps_, between_steps_, max_pair_steps_;
+      settle_steps_, between_steps_, max_pair_steps_, equilibration_collisions_, between_collisions_, max_pair_collisions_;
   std::optional<double> time_step_, melt_temperature_, check_tolerance_;
 };
 
 // Runs the protocol and writes DIR/pair-0001.extxyz ..., the traces, and the start of the JSON result.
 struct EndPoints {
   EndPointRunResult run;
-  Json json;     // {"pairs": ..., "temperature": ...}
+  Json json;     // {"pairs": ..., "temperature" or "compressibility": ...}
   bool reached;  // all pairs were made
 };
-EndPoints make_end_points(const LennardJonesModel& model, const Configuration& start, const EndPointOptions& options, Isa isa,
+EndPoints make_end_points(const Model& model, const Configuration& start, const EndPointProtocol& protocol, Isa isa,
                           OutputFolder& folder, const CommonOptions& common);
 
 // "pair-0001.extxyz"

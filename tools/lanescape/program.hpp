@@ -156,8 +156,10 @@ struct Subcommand {
 
 Subcommand add_info(CLI::App& app);
 Subcommand add_energy(CLI::App& app);
+Subcommand add_overlap(CLI::App& app);
 Subcommand add_endpoints(CLI::App& app);
 Subcommand add_path(CLI::App& app);
+Subcommand add_diffusion(CLI::App& app);
 Subcommand add_verify(CLI::App& app);
 
 // Watches for SIGINT and SIGTERM, and draws a progress bar with rate and remaining time where stderr is a terminal.

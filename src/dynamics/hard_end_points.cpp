@@ -1,0 +1,142 @@
+#include "dynamics/hard_end_points.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace lanescape {
+namespace {
+
+std::vector<double> masses_of(const HardSphereModel& model, const std::vector<int>& species) {
+  std::vector<double> masses;
+  for (const int s : species) masses.push_back(model.species[static_cast<std::size_t>(s)].mass);
+  return masses;
+}
+
+}  // namespace
+
+void HardEndPointOptions::make_quick() {
+  equilibration_collisions = 200'000;
+  between_collisions = 20'000;
+}
+
+void HardEndPointOptions::check() const {
+  if (!(distance > 0.0) || !std::isfinite(distance))
+    throw_bad_input(fmt::format("distance {} is not allowed: it must be finite and above 0", distance));
+  if (pairs == 0) throw_bad_input("number of pairs must be at least 1");
+  if (check_interval == 0) throw_bad_input("check interval must be at least 1");
+  if (max_pair_collisions == 0) throw_bad_input("collisions of a pair must be at least 1");
+}
+
+HardEndPointGenerator::HardEndPointGenerator(const HardSphereModel& model, const ParticleLayout& layout, const Configuration& start,
+                                             const HardEndPointOptions& options, Isa isa)
+    : layout_(&layout),
+      options_(options),
+      dynamics_(start, masses_of(model, start.species), kernel_table(isa)),
+      spheres_(start.box, layout, start.radii, kernel_table(isa)) {
+  options_.check();
+  if (layout.size() < 2)
+    throw_bad_input(fmt::format("{} particle has nothing to collide with: at least 2 are needed", layout.size()));
+  for (const Species& s : model.species) masses_.push_back(s.mass);
+  dynamics_.draw_velocities(options_.seed);
+  enter(options_.equilibration_collisions > 0 ? Phase::equilibrate : Phase::pair);
+}
+
+const char* HardEndPointGenerator::name(Phase phase) {
+  switch (phase) {
+    case Phase::equilibrate:
+      return "equilibration";
+    case Phase::pair:
+      return "towards the far end point";
+    case Phase::between:
+      return "between pairs";
+    case Phase::done:
+      return "done";
+    case Phase::distance_not_reached:
+      return "distance not reached";
+  }
+  return "";
+}
+
+std::uint64_t HardEndPointGenerator::phase_total() const {
+  if (phase_ == Phase::equilibrate) return options_.equilibration_collisions;
+  return phase_ == Phase::between ? options_.between_collisions : 0;
+}
+
+void HardEndPointGenerator::enter(Phase phase) {
+  if (phase == Phase::between && options_.between_collisions == 0) phase = Phase::pair;
+  if (phase_ == Phase::equilibrate && phase != phase_) {
+    virial_start_ = dynamics_.virial();
+    time_start_ = dynamics_.time();
+  }
+  phase_ = phase;
+  phase_start_ = dynamics_.collisions();
+  if (phase == Phase::pair) pair_start_.clear();
+}
+
+bool HardEndPointGenerator::sample(std::vector<double>& positions, double& time) {
+  time = dynamics_.time() + 0.5 * (dynamics_.next_event_time() - dynamics_.time());
+  dynamics_.positions(time, positions);
+  return !spheres_.any_overlap(layout_->to_slots(positions));
+}
+
+double HardEndPointGenerator::distance_to(const std::vector<double>& positions) const {
+  return end_point_distance(layout_->to_slots(pair_start_), layout_->to_slots(positions), *layout_, masses_,
+                            options_.distance_species);
+}
+
+double HardEndPointGenerator::distance_so_far() const {
+  return phase_ == Phase::pair && !pair_start_.empty() ? distance_to(dynamics_.positions()) : 0.0;
+}
+
+void HardEndPointGenerator::step() {
+  dynamics_.collide();
+  const std::uint64_t done = phase_done();
+  if (phase_ == Phase::equilibrate || phase_ == Phase::between) {
+    if (done >= phase_total()) enter(Phase::pair);
+    return;
+  }
+  if (pair_start_.empty()) {
+    if (!sample(pair_start_, pair_start_time_)) pair_start_.clear();
+    phase_start_ = dynamics_.collisions();
+    return;
+  }
+  if (done >= options_.max_pair_collisions) return enter(Phase::distance_not_reached);
+  if (done % options_.check_interval != 0) return;
+  // Leaving out the drift, or particles, only shortens the distance: a plain sum tells when a closer look is due.
+  dynamics_.positions(dynamics_.time(), scratch_);
+  double squared = 0.0;
+  for (std::size_t k = 0; k < scratch_.size(); ++k) squared += (scratch_[k] - pair_start_[k]) * (scratch_[k] - pair_start_[k]);
+  if (squared < options_.distance * options_.distance) return;
+  double time = 0.0;
+  if (!sample(scratch_, time)) return;
+  const double distance = distance_to(scratch_);
+  if (distance < options_.distance) return;
+  pairs_.push_back({layout_->to_slots(pair_start_), layout_->to_slots(scratch_), distance, done, time - pair_start_time_});
+  enter(pairs_.size() < options_.pairs ? Phase::between : Phase::done);
+}
+
+void HardEndPointGenerator::exchange(Archive& archive) {
+  archive.enter("dynamics");
+  dynamics_.exchange(archive);
+  archive.leave();
+  std::uint64_t phase = static_cast<std::uint64_t>(phase_), pairs = pairs_.size();
+  archive.field("phase", phase);
+  phase_ = static_cast<Phase>(phase);
+  archive.field("phase_start", phase_start_);
+  archive.field("virial_start", virial_start_);
+  archive.field("time_start", time_start_);
+  archive.field("pair_start", pair_start_);
+  archive.field("pair_start_time", pair_start_time_);
+  archive.field("pairs", pairs);
+  pairs_.resize(pairs);
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    archive.enter(fmt::format("pair{:04}", k + 1));
+    pairs_[k].exchange(archive);
+    archive.leave();
+  }
+}
+
+}  // namespace lanescape

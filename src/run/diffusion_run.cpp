@@ -1,0 +1,269 @@
+#include "run/diffusion_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "interaction/hard_sphere.hpp"
+#include "interaction/lennard_jones.hpp"
+#include "landscape/lennard_jones_landscape.hpp"
+
+namespace lanescape {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint64_t records_per_report = 1000;
+
+// Hard spheres, brought to equilibrium and on from one trajectory to the next.
+class HardSource {
+ public:
+  HardSource(const HardSphereModel& model, const ParticleLayout& layout, const Configuration& start,
+             const DiffusionRunOptions& options, Isa isa)
+      : layout_(&layout), options_(&options), dynamics_(start, masses(model, start), kernel_table(isa)) {
+    dynamics_.draw_velocities(options.seed);
+  }
+
+  // One unit of equilibration; the part that is done.
+  double equilibrate() {
+    const std::uint64_t wanted = options_->equilibration_collisions;
+    const std::uint64_t until = std::min(wanted, dynamics_.collisions() + EventDriven::resync_interval);
+    while (dynamics_.collisions() < until) dynamics_.collide();
+    return wanted == 0 ? 1.0 : static_cast<double>(dynamics_.collisions()) / static_cast<double>(wanted);
+  }
+  bool failed() const { return false; }
+  void begin_trajectory() {
+    dynamics_.resynchronise();
+    begin_ = dynamics_.time();
+    virial_begin_ = dynamics_.virial();
+    recorded_ = 0;
+  }
+  void record(TrajectoryRecord& record) {
+    const double time = begin_ + static_cast<double>(recorded_++) * options_->window.interval;
+    dynamics_.advance_to(time);
+    dynamics_.positions(time, scratch_);
+    record.record(layout_->to_slots(dynamics_.velocities()), layout_->to_slots(scratch_));
+  }
+  void end_trajectory() {
+    virial_ += dynamics_.virial() - virial_begin_;
+    time_ += dynamics_.time() - begin_;
+    for (std::uint64_t k = 0; k < options_->between; ++k) dynamics_.collide();
+    dynamics_.resynchronise();
+  }
+  void finish(DiffusionRunResult& result) const {
+    const double n = static_cast<double>(layout_->size());
+    const double temperature = 2.0 * dynamics_.kinetic_energy() / (3.0 * n - 3.0);
+    if (time_ > 0.0) result.compressibility = 1.0 + virial_ / (3.0 * n * temperature * time_);
+  }
+  void exchange(Archive& archive) {
+    dynamics_.exchange(archive);
+    archive.field("trajectory_virial", virial_);
+    archive.field("trajectory_time", time_);
+  }
+
+ private:
+  static std::vector<double> masses(const HardSphereModel& model, const Configuration& start) {
+    std::vector<double> masses;
+    for (const int s : start.species) masses.push_back(model.species[static_cast<std::size_t>(s)].mass);
+    return masses;
+  }
+
+  const ParticleLayout* layout_;
+  const DiffusionRunOptions* options_;
+  EventDriven dynamics_;
+  std::vector<double> scratch_;
+  double begin_ = 0.0, virial_begin_ = 0.0, virial_ = 0.0, time_ = 0.0;
+  std::uint64_t recorded_ = 0;
+};
+
+// Soft particles: the end-point protocol up to its first pair, then plain molecular dynamics.
+class SoftSource {
+ public:
+  static constexpr std::uint64_t records_per_virial = 10;
+
+  SoftSource(const LennardJonesModel& model, const ParticleLayout& layout, const Configuration& start,
+             const DiffusionRunOptions& options, Isa isa)
+      : layout_(&layout),
+        options_(&options),
+        volume_(start.box.volume()),
+        landscape_(model, start.box, layout, isa),
+        interaction_(model, start.box, layout, kernel_table(isa)),
+        generator_(landscape_, model, layout, layout.to_slots(start.positions), options.equilibration),
+        gradient_(layout.dimension(), 0.0),
+        steps_per_record_(static_cast<std::uint64_t>(std::lround(options.window.interval / options.equilibration.time_step))) {}
+
+  double equilibrate() {
+    using Phase = EndPointGenerator::Phase;
+    for (int k = 0; k < 1000 && generator_.phase() < Phase::pair; ++k) generator_.step();
+    if (generator_.phase() >= Phase::pair || failed()) return 1.0;
+    const double total = static_cast<double>(std::max<std::uint64_t>(1, generator_.phase_total()));
+    return std::min(0.999, (static_cast<double>(generator_.phase()) + static_cast<double>(generator_.phase_done()) / total) / 4.0);
+  }
+  bool failed() const { return generator_.phase() == EndPointGenerator::Phase::temperature_not_held; }
+  void begin_trajectory() { recorded_ = 0; }
+  void record(TrajectoryRecord& record) {
+    VelocityVerlet& verlet = generator_.verlet();
+    if (recorded_ > 0) run(steps_per_record_);
+    if (recorded_++ % records_per_virial == 0) {
+      const double t = verlet.temperature();
+      temperature_ += t;
+      pressure_ +=
+          (static_cast<double>(layout_->size()) * t + interaction_.energy_and_gradient(verlet.position(), gradient_).virial / 3.0) /
+          volume_;
+      ++samples_;
+    }
+    record.record(verlet.velocity(), verlet.position());
+  }
+  void end_trajectory() { run(options_->between); }
+  void finish(DiffusionRunResult& result) const {
+    if (samples_ == 0) return;
+    result.temperature = temperature_ / static_cast<double>(samples_);
+    result.pressure = pressure_ / static_cast<double>(samples_);
+  }
+  void exchange(Archive& archive) {
+    generator_.exchange(archive);
+    archive.field("temperature_sum", temperature_);
+    archive.field("pressure_sum", pressure_);
+    archive.field("samples", samples_);
+  }
+
+ private:
+  void run(std::uint64_t steps) {
+    for (std::uint64_t k = 0; k < steps; ++k) generator_.verlet().step();
+  }
+
+  const ParticleLayout* layout_;
+  const DiffusionRunOptions* options_;
+  double volume_;
+  LennardJonesLandscape landscape_;
+  LennardJones interaction_;
+  EndPointGenerator generator_;
+  AlignedArray gradient_;
+  std::uint64_t steps_per_record_, recorded_ = 0, samples_ = 0;
+  double temperature_ = 0.0, pressure_ = 0.0;
+};
+
+template <class Source>
+struct DiffusionState {
+  Source source;
+  DiffusionAccumulator diffusion;
+  std::uint64_t equilibrated = 0, trajectories = 0;
+  double seconds = 0.0;
+
+  void exchange(Archive& archive) {
+    source.exchange(archive);
+    diffusion.exchange(archive);
+    archive.field("equilibrated", equilibrated);
+    archive.field("trajectories", trajectories);
+    archive.field("run_seconds", seconds);
+  }
+};
+
+template <class Source, class SourceModel>
+DiffusionRunResult run(const SourceModel& model, const Configuration& start, const DiffusionRunOptions& options, Isa isa,
+                       const CheckpointOptions& checkpoint, RunMonitor& monitor) {
+  const ParticleLayout layout(start.species, model.species.size());
+  DiffusionState<Source> state{Source(model, layout, start, options, isa), DiffusionAccumulator(layout, options.window)};
+  const auto file = checkpoint.folder / "diffusion.h5";
+  if (checkpoint.enabled() && checkpoint.resume) load_checkpoint(file, state);
+  const auto save = [&] {
+    if (checkpoint.enabled()) save_checkpoint(file, state);
+  };
+  auto last = Clock::now();
+  const auto count_time = [&] {
+    const auto now = Clock::now();
+    state.seconds += std::chrono::duration<double>(now - last).count();
+    last = now;
+  };
+
+  bool interrupted = false;
+  while (state.equilibrated == 0 && !interrupted) {
+    const double part = state.source.equilibrate();
+    monitor.progress("equilibration", part, 1.0);
+    state.equilibrated = part >= 1.0 ? 1 : 0;
+    interrupted = monitor.stop_requested();
+    count_time();
+    if (interrupted) save();
+  }
+  TrajectoryRecord record(layout, options.window);
+  while (!interrupted && !state.source.failed() && state.trajectories < options.trajectories) {
+    // A trajectory is not kept half done: an interrupted one is made again.
+    save();
+    record.clear();
+    state.source.begin_trajectory();
+    while (!record.full() && !interrupted) {
+      state.source.record(record);
+      if (record.records() % records_per_report != 0) continue;
+      monitor.progress("trajectories",
+                       static_cast<double>(state.trajectories) +
+                           static_cast<double>(record.records()) / static_cast<double>(options.window.records),
+                       static_cast<double>(options.trajectories));
+      interrupted = monitor.stop_requested();
+    }
+    if (interrupted) break;
+    state.diffusion.add_trajectory(record);
+    state.source.end_trajectory();
+    ++state.trajectories;
+    count_time();
+  }
+  if (!interrupted) save();
+  DiffusionRunResult result{
+      .diffusion = state.diffusion, .interrupted = interrupted, .equilibrated = !state.source.failed(), .seconds = state.seconds};
+  state.source.finish(result);
+  return result;
+}
+
+}  // namespace
+
+void DiffusionRunOptions::check() const {
+  window.check();
+  if (trajectories == 0) throw_bad_input("number of trajectories must be at least 1");
+}
+
+DiffusionRunOptions source_diffusion_options(std::size_t species, double packing_fraction) {
+  struct Row {
+    double below, interval;
+    std::uint64_t lags, origins, between;
+  };
+  static constexpr std::uint64_t few = 30'000, many = 40'000;
+  static constexpr Row mono[] = {{0.075, 1e-3, few, 100'000, 100'000}, {0.175, 5e-4, few, 100'000, 100'000},
+                                 {0.275, 2e-4, few, 100'000, 100'000}, {0.375, 1e-4, few, 100'000, 100'000},
+                                 {0.455, 5e-5, few, 100'000, 100'000}, {1.0, 3e-5, few, 100'000, 100'000}};
+  static constexpr Row mixed[] = {{0.075, 6e-4, many, 150'000, 200'000}, {0.175, 4e-4, many, 150'000, 200'000},
+                                  {0.275, 2e-4, many, 150'000, 200'000}, {0.375, 1.5e-4, many, 150'000, 200'000},
+                                  {0.495, 1e-4, many, 150'000, 200'000}, {1.0, 2e-5, 100'000, 200'000, 200'000}};
+  const Row* row = species > 1 ? mixed : mono;
+  while (packing_fraction >= row->below) ++row;
+  DiffusionRunOptions options;
+  options.window = {row->interval, row->lags, row->origins + row->lags};
+  options.trajectories = species > 1 ? 10 : 5;
+  options.between = row->between;
+  return options;
+}
+
+DiffusionRunOptions soft_diffusion_options() {
+  DiffusionRunOptions options;
+  options.window = {0.01, 1000, 11'000};
+  return options;
+}
+
+DiffusionRunResult run_diffusion(const Model& model, const Configuration& start, const DiffusionRunOptions& options, Isa isa,
+                                 const CheckpointOptions& checkpoint, RunMonitor& monitor) {
+  options.check();
+  if (const auto* hard = std::get_if<HardSphereModel>(&model)) {
+    check_no_overlap(start, kernel_table(isa));
+    return run<HardSource>(*hard, start, options, isa, checkpoint, monitor);
+  }
+  const auto& soft = std::get<LennardJonesModel>(model);
+  check_separations(start, soft);
+  const double steps = options.window.interval / options.equilibration.time_step;
+  if (!(steps >= 0.999 && std::fabs(steps - std::round(steps)) < 1e-6 * steps))
+    throw_bad_input(fmt::format("record interval {} is not allowed: a multiple of the time step {} is needed",
+                                options.window.interval, options.equilibration.time_step));
+  return run<SoftSource>(soft, start, options, isa, checkpoint, monitor);
+}
+
+}  // namespace lanescape
