@@ -6,13 +6,20 @@
 #include <chrono>
 #include <cstddef>
 #include <map>
+#include <string>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "configuration/configuration.hpp"
+#include "configuration/hard_sphere_model.hpp"
 #include "configuration/lattice.hpp"
 #include "configuration/lennard_jones_model.hpp"
 #include "configuration/particle_layout.hpp"
+#include "core/run_monitor.hpp"
 #include "dispatch/isa.hpp"
+#include "dynamics/event_driven.hpp"
+#include "dynamics/hard_sphere_start.hpp"
 #include "dynamics/velocity_verlet.hpp"
 #include "landscape/lennard_jones_landscape.hpp"
 
@@ -43,6 +50,23 @@ inline const Configuration& liquid(std::size_t particles) {
     }
   configuration.positions = layout.to_user(verlet.position());
   return made.emplace(particles, std::move(configuration)).first->second;
+}
+
+// A liquid of hard spheres: grown from a dilute melt and equilibrated for 200 collisions per particle. The same bits whichever
+// kernels are timed later.
+inline const Configuration& hard_liquid(const HardSphereModel& model, std::size_t particles, double packing_fraction) {
+  static std::map<std::tuple<std::string, std::size_t, double>, Configuration> made;
+  const auto key = std::make_tuple(model.name, particles, packing_fraction);
+  const auto found = made.find(key);
+  if (found != made.end()) return found->second;
+  SilentMonitor monitor;
+  Configuration start =
+      *make_hard_sphere_start(model, particles, packing_fraction, StartMethod::growth, 1, available_isas().front(), monitor);
+  EventDriven dynamics(start, std::vector<double>(particles, 1.0), kernel_table(available_isas().front()));
+  dynamics.draw_velocities(1);
+  for (std::size_t k = 0; k < 200 * particles; ++k) dynamics.collide();
+  dynamics.positions(0.5 * (dynamics.time() + dynamics.next_event_time()), start.positions);
+  return made.emplace(key, std::move(start)).first->second;
 }
 
 // Seconds per multiply-add of whole vectors with all pipes full, the best of many short runs: what a loop that does nothing

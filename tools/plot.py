@@ -1,17 +1,22 @@
 #!/usr/bin/python3
 """Draw the figures of a run's folder: tools/plot.py DIR
 
-Reads from DIR what `lanescape path` and `lanescape endpoints` write there:
+Reads from DIR what `lanescape path`, `lanescape endpoints` and `lanescape diffusion` write there:
   result.json               outcome, length, landscape energy, ... of each path (required)
   run.toml                  the target temperature (optional)
   path-0001-trace.csv ...   one per path in result.json
   path-0001.extxyz ...      only the first line, the number of particles (optional)
+  path-0001-steps.csv, path-0001-particles.csv     histograms over steps, path lengths of particles (optional)
   endpoints-trace.csv, radial-distribution.csv     where end points were made
+  diffusion.csv             correlations and displacements
 
 Writes into DIR:
   path-0001.png ...   energy, distance to the goal, share of direct steps and participation ratio along the path
   paths.png           (DeltaR/g)^2 and n/N of all paths with mean and standard error, from two paths that reached their goal on
-  equilibration.png   temperature, potential energy, energy drift and radial distribution functions
+  statistics.png      distributions over the steps of all paths, and how unequally particles share the way
+  diffusion.png       velocity correlation, its integral and the mean squared displacement
+  equilibration.png   temperature, potential energy, energy drift and radial distribution functions; of hard spheres
+                      compressibility and collision rate
 
 Exit status 0, or 2 with one line on stderr when something is missing or cannot be read; then nothing is drawn.
 Lengths are in sigma, energies in epsilon, temperatures in epsilon/k_B.
@@ -37,7 +42,8 @@ PAIR_STYLES = [(BLUE, "-"), (VERMILLION, "--"), (GREEN, "-."), (PURPLE, ":"), ("
 FREE_PHASES = ("settling", "towards the far end point", "between pairs")
 SHORT_PHASE = {"temperature check": "T check", "towards the far end point": "pairs", "between pairs": "pairs"}
 HISTOGRAM_FROM = 10  # paths
-MODEL_NAMES = {"kob-andersen": "Kob-Andersen", "lennard-jones": "Lennard-Jones"}
+MODEL_NAMES = {"kob-andersen": "Kob-Andersen", "lennard-jones": "Lennard-Jones", "hard-sphere": "Hard spheres",
+               "hard-sphere-binary": "Binary hard spheres"}
 
 plt.rcParams.update({
     "font.size": 13, "axes.labelsize": 14, "axes.titlesize": 15, "legend.fontsize": 12, "xtick.labelsize": 12, "ytick.labelsize": 12,
@@ -99,8 +105,11 @@ def read_path(folder, number, summary):
     """The summary of a path in result.json with its trace and number of particles (None where unknown)."""
     name = f"path-{number:04}"
     trace = read_table(folder / f"{name}-trace.csv",
-                       ["length", "distance_to_goal", "energy", "direct_fraction", "participation_ratio"])
-    for key in ("length", "distance", "landscape_energy"):
+                       ["length", "distance_to_goal", "direct_fraction", "participation_ratio"])
+    hard = "moved_particles" in trace
+    if not hard and "energy" not in trace:
+        raise Unusable(f"{folder / (name + '-trace.csv')}: no column energy")
+    for key in ("length", "distance") + (() if hard else ("landscape_energy",)):
         if not isinstance(summary.get(key), (int, float)):
             raise Unusable(f"{folder / 'result.json'}: {key} of path {number} is not a number")
     particles = None
@@ -108,7 +117,7 @@ def read_path(folder, number, summary):
         with open(folder / f"{name}.extxyz") as file:
             first = file.readline().strip()
         particles = int(first) if first.isdigit() else None
-    return {**summary, "name": name, "trace": trace, "particles": particles}
+    return {**summary, "name": name, "trace": trace, "particles": particles, "hard": hard}
 
 
 # ---- series
@@ -154,7 +163,11 @@ def system_parts(result, temperature, particles):
     """What a title says of the system, as far as it is known."""
     model = result.get("model", "")
     parts = [MODEL_NAMES.get(model, model)] if model else []
-    parts += [f"$T={temperature:g}$"] if temperature is not None else []
+    packing = result.get("packing_fraction") or result.get("endpoints", {}).get("packing_fraction")
+    if packing is not None:
+        parts.append(rf"$\phi={packing:.4g}$")
+    elif temperature is not None:
+        parts.append(f"$T={temperature:g}$")
     return parts + ([f"$N={particles}$"] if particles else [])
 
 
@@ -190,6 +203,16 @@ def draw_gap(axes, path, temperature):
         axes.axhline(temperature, color=GREY, linestyle=":", label=r"$k_\mathrm{B}T$")
     axes.set_ylabel(r"$|E_L-V|\;\;[\epsilon]$" if above else r"$E_L-V\;\;[\epsilon]$")
     letter(axes, f"(a) gap to landscape energy $E_L=${path['landscape_energy']:.2f}".replace("-", "\u2212"))
+    legend_above(axes)
+
+
+def draw_moved(axes, path):
+    """How many particles a step moves: all of them in a direct one."""
+    count = path["particles"] or path["trace"]["moved_particles"].max()
+    draw_series(axes, path["trace"]["length"], path["trace"]["moved_particles"] / count, BLUE, label="running median")
+    axes.set_ylim(0.0, 1.05)
+    axes.set_ylabel("$c/N$")
+    letter(axes, "(a) particles moved by a step")
     legend_above(axes)
 
 
@@ -242,7 +265,7 @@ def draw_path(folder, path, result, temperature):
         panels[0].text(0.5, 0.5, "no step was recorded", transform=panels[0].transAxes, ha="center", color=GREY)
     else:
         end = max(path["length"], path["trace"]["length"][-1])
-        draw_gap(panels[0], path, temperature)
+        draw_moved(panels[0], path) if path["hard"] else draw_gap(panels[0], path, temperature)
         draw_distance(panels[1], path)
         draw_step_kinds(panels[2], path, end)
         draw_participation(panels[3], path)
@@ -291,6 +314,116 @@ def draw_paths(folder, paths, result, temperature):
         panels[1, 1].set_xlabel("count")
     figure.align_ylabels(panels[:, 0])
     save(figure, folder / "paths.png")
+
+
+# ---- statistics over steps
+
+STEP_PANELS = (
+    ("participation_ratio", "$n/N$", False, None),
+    ("alpha_2", r"$\alpha_2$", False, None),
+    ("overlapping_partners", "overlapping partners $v$", True, None),
+    ("moved_particles", "$c/N$", False, "per particle"),
+    ("groups", "$m/N$", False, "per particle"),
+)
+GROUP_SIZES = (("group_size_few_groups", "few groups"), ("group_size_some_groups", "some"), ("group_size_many_groups", "many"))
+
+
+def read_histograms(folder, paths):
+    """Steps by quantity and value, all paths together."""
+    sums = {}
+    for path in paths:
+        file = folder / f"{path['name']}-steps.csv"
+        if not file.exists():
+            return {}
+        for row in csv.DictReader(read_text(file).splitlines()):
+            by_value = sums.setdefault(row["quantity"], {})
+            by_value[float(row["value"])] = by_value.get(float(row["value"]), 0) + int(row["steps"])
+    return {quantity: (np.array(sorted(v)), np.array([v[x] for x in sorted(v)], float)) for quantity, v in sums.items()}
+
+
+def read_particle_ratios(folder, paths):
+    """log10 of g_j / DeltaR_j by species, all paths together."""
+    ratios = {}
+    for path in paths:
+        file = folder / f"{path['name']}-particles.csv"
+        if not file.exists():
+            return {}
+        for row in csv.DictReader(read_text(file).splitlines()):
+            if float(row["displacement"]) > 0.0 and float(row["path_length"]) > 0.0:
+                ratios.setdefault(row["species"], []).append(np.log10(float(row["path_length"]) / float(row["displacement"])))
+    return ratios
+
+
+def draw_histogram(axes, values, counts, scale, label, colour, name=None):
+    share = counts / counts.sum()
+    mean = (values * share).sum() * scale
+    axes.plot(values * scale, share, color=colour, marker="o", markersize=3, linewidth=1.2, label=f"{name or 'mean'} {mean:.3g}")
+    axes.set_yscale("log")
+    axes.set_xlabel(label)
+    axes.legend(loc="upper right")
+
+
+def draw_statistics(folder, paths, result, temperature):
+    histograms, ratios = read_histograms(folder, paths), read_particle_ratios(folder, paths)
+    if not histograms or not ratios:
+        return
+    shown = [panel for panel in STEP_PANELS if panel[0] in histograms and histograms[panel[0]][1].sum() > 0]
+    sizes = [(quantity, name) for quantity, name in GROUP_SIZES if quantity in histograms and histograms[quantity][1].sum() > 0]
+    count = len(shown) + bool(sizes) + 1
+    rows = -(-count // 3)
+    figure, panels = plt.subplots(rows, 3, figsize=(13.0, 4.0 * rows), squeeze=False, gridspec_kw={"hspace": 0.35, "wspace": 0.28})
+    flat = list(panels.flat)
+    for (quantity, label, _, per), axes in zip(shown, flat):
+        values, counts = histograms[quantity]
+        draw_histogram(axes, values, counts, 1.0 / (paths[0]["particles"] or 1) if per else 1.0, label, BLUE)
+    used = len(shown)
+    if sizes:
+        for (quantity, name), (colour, _) in zip(sizes, PAIR_STYLES):
+            draw_histogram(flat[used], *histograms[quantity], 1.0, "group size $s$", colour, name + ": mean")
+        used += 1
+    for (species, values), (colour, _) in zip(ratios.items(), PAIR_STYLES):
+        values = np.array(values)
+        bins = np.arange(np.floor(values.min() / 0.05) * 0.05, values.max() + 0.05, 0.05)
+        flat[used].hist(values, bins=bins, density=True, histtype="step", linewidth=2.0, color=colour,
+                        label=f"{species}: width {values.std():.3f}")
+    flat[used].set_xlabel(r"$\log_{10}(g_j/\Delta R_j)$")
+    flat[used].legend(loc="upper right")
+    for axes in flat[used + 1:]:
+        axes.set_visible(False)
+    for row in panels:
+        row[0].set_ylabel("share of steps")
+    flat[used].set_ylabel("density")
+    parts = [*system_parts(result, temperature, paths[0]["particles"]), f"{path_method(paths[0])} method", f"{len(paths)} path{'s' * (len(paths) > 1)}"]
+    figure.suptitle(",  ".join(parts), y=0.95 if rows > 1 else 1.0, fontsize=15)
+    save(figure, folder / "statistics.png")
+
+
+# ---- diffusion
+
+def draw_diffusion(folder, table, result, temperature):
+    names = [name.removeprefix("velocity_correlation_") for name in table if name.startswith("velocity_correlation_")]
+    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(15.0, 4.8), gridspec_kw={"wspace": 0.3})
+    time = table["time"]
+    for name, (colour, style) in zip(names, PAIR_STYLES):
+        correlation = table[f"velocity_correlation_{name}"]
+        left.plot(time, correlation / correlation[0], color=colour, linestyle=style, label=name)
+        middle.plot(time, table[f"diffusion_integral_{name}"], color=colour, linestyle=style, label=f"{name}, integral")
+        right.plot(time[1:], table[f"squared_displacement_{name}"][1:], color=colour, linestyle=style, label=name)
+        species = result.get("species", {}).get(name, {})
+        if "diffusion_msd" in species:
+            middle.axhline(species["diffusion_msd"], color=colour, linewidth=1.0, alpha=0.6,
+                           label=rf"$\langle r^2\rangle$: {species['diffusion_msd']:.4g}")
+    left.axhline(0.0, color=GREY, linewidth=1.0)
+    left.set_ylabel(r"$\langle v(t)\cdot v(0)\rangle/\langle v^2\rangle$")
+    middle.set_ylabel("$D(t)$")
+    right.set_ylabel(r"$\langle|\Delta r|^2\rangle\;\;[\sigma^2]$")
+    right.set_xscale("log")
+    right.set_yscale("log")
+    for axes in (left, middle, right):
+        axes.set_xlabel("$t$")
+        axes.legend()
+    figure.suptitle(",  ".join([*system_parts(result, temperature, result.get("particles")), "diffusion"]), fontsize=15)
+    save(figure, folder / "diffusion.png")
 
 
 # ---- equilibration
@@ -414,6 +547,29 @@ def draw_radial_distribution(axes, table, model):
     axes.legend(loc="upper right")
 
 
+def draw_hard_equilibration(folder, trace, radial, result, particles):
+    """Compressibility and collision rate between resynchronisations, and the radial distribution functions since equilibrium."""
+    figure = plt.figure(figsize=(11.0, 9.0))
+    grid = figure.add_gridspec(2, 1, height_ratios=[1.3, 1], hspace=0.3)
+    series = grid[0].subgridspec(2, 1, hspace=0.1)
+    upper = figure.add_subplot(series[0])
+    lower = figure.add_subplot(series[1], sharex=upper)
+    upper.tick_params(labelbottom=False)
+    spans, end = phase_spans(trace), trace["time"][-1]
+    draw_by_phase(upper, trace["time"], trace["compressibility"], spans, VERMILLION)
+    draw_by_phase(lower, trace["time"], trace["collision_rate"], spans, BLUE)
+    upper.set_ylabel(r"$Z=PV/Nk_\mathrm{B}T$")
+    lower.set_ylabel("collisions per particle and time")
+    lower.set_xlabel(r"time $t\;\;[\sigma\sqrt{m/k_\mathrm{B}T}\,]$")
+    upper.set_xlim(0.0, end)
+    for axes in (upper, lower):
+        shade_phases(axes, spans, end)
+    label_phases(upper, spans, end)
+    draw_radial_distribution(figure.add_subplot(grid[1]), radial, result.get("model"))
+    figure.suptitle(",  ".join([*system_parts(result, None, particles), "equilibration"]), y=0.96, fontsize=15)
+    save(figure, folder / "equilibration.png")
+
+
 def draw_equilibration(folder, trace, radial, result, temperature, particles):
     figure = plt.figure(figsize=(11.0, 11.0))
     grid = figure.add_gridspec(2, 1, height_ratios=[1.75, 1], hspace=0.3)
@@ -444,17 +600,27 @@ def draw_folder(folder):
     paths = [read_path(folder, number, summary) for number, summary in enumerate(result.get("paths", []), 1)]
     equilibration = None
     if (folder / "endpoints-trace.csv").exists():
-        equilibration = (read_table(folder / "endpoints-trace.csv",
-                                    ["time", "temperature", "potential_energy_per_particle", "energy_per_particle", "phase"]),
-                         read_table(folder / "radial-distribution.csv", ["r"]))
-    if not paths and equilibration is None:
-        raise Unusable(f"{folder}: neither paths in result.json nor endpoints-trace.csv: nothing to draw")
+        trace = read_table(folder / "endpoints-trace.csv", ["time", "phase"])
+        if "compressibility" not in trace:
+            trace = read_table(folder / "endpoints-trace.csv",
+                               ["time", "temperature", "potential_energy_per_particle", "energy_per_particle", "phase"])
+        equilibration = trace, read_table(folder / "radial-distribution.csv", ["r"])
+    diffusion = read_table(folder / "diffusion.csv", ["time"]) if (folder / "diffusion.csv").exists() else None
+    if not paths and equilibration is None and diffusion is None:
+        raise Unusable(f"{folder}: neither paths in result.json nor endpoints-trace.csv nor diffusion.csv: nothing to draw")
     made = {**result, "model": result.get("model") or run.get("model", "")}
     temperature = target_temperature(run)
     for path in paths:
         draw_path(folder, path, made, temperature)
     draw_paths(folder, paths, made, temperature)
-    if equilibration is not None and len(equilibration[0]["time"]) > 0:
+    if paths:
+        draw_statistics(folder, paths, made, temperature)
+    if diffusion is not None:
+        draw_diffusion(folder, diffusion, made, temperature)
+    if equilibration is not None and "compressibility" in equilibration[0]:
+        if len(equilibration[0]["time"]) > 0:
+            draw_hard_equilibration(folder, *equilibration, made, paths[0]["particles"] if paths else None)
+    elif equilibration is not None and len(equilibration[0]["time"]) > 0:
         draw_equilibration(folder, *equilibration, made, temperature, paths[0]["particles"] if paths else None)
 
 

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <utility>
+#include <numeric>
 #include <vector>
 
 #include "configuration/lattice.hpp"
@@ -19,65 +20,92 @@ namespace {
 
 constexpr double max_packing_fraction = 0.74;
 constexpr double dense = 0.50;         // from here on lattices do not melt, or melt too slowly
-constexpr double lattice_room = 0.99;  // of what a lattice can reach: as far as one is taken
+constexpr double lattice_room = 1.01;  // what a lattice must be able to reach, over what is wanted
 
-// Growth: a fluid melted at this packing fraction, whose diameters grow by so much of themselves per unit of time, slower where
-// the pressure is high. The first rate leaves one component no time to crystallise between 0.49 and 0.55.
-constexpr double melted_at = 0.30, slow_above = 0.56;
-constexpr double fast_growth = 0.02, slow_growth = 0.002;
-constexpr std::uint64_t melt_collisions = 500;     // per particle
-constexpr std::uint64_t rescale_collisions = 10;   // per particle; growth heats meanwhile
-constexpr std::uint64_t most_collisions = 40'000;  // per particle: several times what any start needs
+constexpr double melt_packing_fraction = 0.25;     // where diameters start to grow
+constexpr std::uint64_t melt_collisions = 200;     // per particle
+constexpr std::uint64_t rescale_collisions = 20;   // per particle; growth heats by some tenths meanwhile
+constexpr std::uint64_t most_collisions = 20'000;  // per particle and stage: several times what any start needs
+constexpr double jammed_compressibility = 1e4;
+// Radii grow until no contact is left at those of the model.
+constexpr double room_to_part = 1e-9;
 
-Arrangement crystal_of(const HardSphereModel& model) {
-  return model.species.size() > 1 ? Arrangement::halves : Arrangement::random;
-}
+// A stage of growth: its rate, in units of thermal velocity over mean diameter, until radii are this part of the model's. The
+// first is too fast for one component to crystallise on the way (phi 0.49 to 0.55); the last leaves spheres time to make room.
+struct Growth {
+  double rate, until;
+};
+constexpr std::array<Growth, 2> stages = {{{1e-2, 0.99}, {1e-3, 1.0 + room_to_part}}};
 
-// Everything scaled so that radii are the model's again and the packing fraction is the wanted one: gaps only widen.
-Configuration at_packing_fraction(Configuration grown, const std::vector<double>& radii, double wanted) {
-  grown.radii = radii;
-  const double edge = cube_edge(grown, wanted), scale = edge / grown.box.length[0];
-  for (double& x : grown.positions) x *= scale;
-  grown.box = {{edge, edge, edge}};
-  return grown;
-}
-
-std::optional<Configuration> grow(const HardSphereModel& model, std::size_t particles, double wanted, std::uint64_t seed, Isa isa,
-                                  RunMonitor& monitor) {
-  const double dilute =
-      std::min({melted_at, wanted, lattice_room * largest_lattice_packing_fraction(model, particles, Arrangement::random, seed)});
-  Configuration now = hard_sphere_start(model, particles, dilute, Arrangement::random, seed);
-  const std::vector<int> species = now.species;
-  const std::vector<double> radii = now.radii;
-  const std::vector<double> masses(particles, 1.0);
-  EventDriven melt(now, masses, kernel_table(isa));
-  melt.draw_velocities(seed);
-  for (std::uint64_t k = 0; k < melt_collisions * particles; ++k) melt.collide();
-  now.positions = melt.positions();
-
-  std::uint64_t collisions = 0;
-  const auto factor_to = [&](double packing) { return std::cbrt(packing / dilute); };
-  for (const auto& [rate, until] : {std::pair{fast_growth, factor_to(std::min(wanted, slow_above))},
-                                    std::pair{slow_growth, factor_to(wanted) * (1.0 + 1e-9)}}) {
-    if (now.radii[0] >= until * radii[0]) continue;
-    EventDriven dynamics(now, masses, kernel_table(isa), rate);
-    dynamics.draw_velocities(seed);
-    while (dynamics.radius(0) < until * radii[0]) {
-      dynamics.collide();
-      if (++collisions % (rescale_collisions * particles) != 0) continue;
-      dynamics.rescale();
-      const double reached = packing_fraction(dynamics.configuration());
-      monitor.progress("growth", reached, wanted);
-      if (monitor.stop_requested()) return std::nullopt;
-      if (collisions > most_collisions * particles)
-        throw_bad_input(
-            fmt::format("packing fraction {} is beyond what growth reached for this composition: {:.4f}", wanted, reached));
-    }
-    dynamics.resynchronise();
-    now = dynamics.configuration();
-    now.species = species;
+// Runs a stage of growth: true once radii are `until` of the model's, false where the monitor asked to stop.
+bool grow_until(EventDriven& spheres, double until, double model_radius, double wanted_fraction, RunMonitor& monitor) {
+  const std::uint64_t per_round = rescale_collisions * spheres.size() / 2, most = most_collisions * spheres.size() / 2;
+  while (true) {
+    const double virial = spheres.virial(), time = spheres.time();
+    std::uint64_t k = 0;
+    for (; k < per_round && spheres.radius(0) < until * model_radius; ++k) spheres.collide();
+    if (k < per_round) return true;
+    const double reached = wanted_fraction * std::pow(spheres.radius(0) / model_radius, 3);
+    if (spheres.collisions() > most || spheres.compressibility(virial, time) > jammed_compressibility)
+      throw_bad_input(fmt::format("packing fraction {} is beyond what growth reached for this composition ({:.4f})",
+                                  wanted_fraction, std::min(reached, wanted_fraction)));
+    spheres.rescale();
+    monitor.progress("growth", reached, wanted_fraction);
+    if (monitor.stop_requested()) return false;
   }
-  return at_packing_fraction(std::move(now), radii, wanted);
+}
+
+// False where the monitor asked to stop.
+bool melt(EventDriven& spheres, RunMonitor& monitor) {
+  for (std::uint64_t k = 0; k < melt_collisions; ++k) {
+    for (std::size_t i = 0; i < (spheres.size() + 1) / 2; ++i) spheres.collide();
+    monitor.progress("melting", static_cast<double>(k + 1), static_cast<double>(melt_collisions));
+    if (monitor.stop_requested()) return false;
+  }
+  return true;
+}
+
+// Grows in the box that is wanted: diameters end a little above those of the model, which are put in their place.
+std::optional<Configuration> grown_start(const Configuration& dilute, double wanted_fraction, std::uint64_t seed,
+                                         const kernels::KernelTable& table, RunMonitor& monitor) {
+  const std::size_t n = dilute.size();
+  Configuration start = dilute;
+  const double edge = cube_edge(dilute, wanted_fraction), scale = edge / dilute.box.length[0];
+  start.box.length = {edge, edge, edge};
+  for (double& x : start.positions) x *= scale;
+  for (double& radius : start.radii) radius *= scale;
+
+  // Where spheres are in equilibrium does not depend on masses, and like ones mix soonest.
+  const std::vector<double> masses(n, 1.0);
+  EventDriven liquid(start, masses, table);
+  liquid.draw_velocities(seed);
+  if (!melt(liquid, monitor)) return std::nullopt;
+  Configuration now = liquid.configuration();
+  std::vector<double> velocities = liquid.velocities();
+  const double mean_diameter = 2.0 * std::accumulate(dilute.radii.begin(), dilute.radii.end(), 0.0) / static_cast<double>(n);
+  for (const Growth& stage : stages) {
+    EventDriven growing(now, masses, table, stage.rate / mean_diameter);
+    growing.set_velocities(velocities);
+    growing.rescale();
+    if (!grow_until(growing, stage.until, dilute.radii[0], wanted_fraction, monitor)) return std::nullopt;
+    now = growing.configuration();
+    velocities = growing.velocities();
+  }
+  now.species = dilute.species;
+  now.radii = dilute.radii;
+  wrap_positions(now);
+  return now;
+}
+
+void check_box(const Configuration& spheres, double packing_fraction, const kernels::KernelTable& table) {
+  // Its own words, from a single sphere in that box.
+  const double edge = cube_edge(spheres, packing_fraction), largest = *std::max_element(spheres.radii.begin(), spheres.radii.end());
+  EventDriven({Box{{edge, edge, edge}}, {0}, {0.0, 0.0, 0.0}, {largest}}, {1.0}, table);
+}
+
+bool any_overlap(const Configuration& spheres, const kernels::KernelTable& table) {
+  const ParticleLayout layout(std::vector<int>(spheres.size(), 0), 1);
+  return HardSphereOverlap(spheres.box, layout, spheres.radii, table).any_overlap(layout.to_slots(spheres.positions));
 }
 
 }  // namespace
@@ -102,26 +130,35 @@ const char* to_string(StartMethod method) {
   return "";
 }
 
-std::optional<Configuration> make_hard_sphere_start(const HardSphereModel& model, std::size_t particles, double wanted,
+std::optional<Configuration> make_hard_sphere_start(const HardSphereModel& model, std::size_t particles, double packing_fraction,
                                                     StartMethod method, std::uint64_t seed, Isa isa, RunMonitor& monitor) {
-  if (!(wanted > 0.0 && wanted <= max_packing_fraction))
-    throw_bad_input(fmt::format("packing fraction {} is not allowed: above 0 and at most {}", wanted, max_packing_fraction));
-  if (method == StartMethod::automatic) {
-    const bool crystal =
-        wanted < dense && wanted < lattice_room * largest_lattice_packing_fraction(model, particles, crystal_of(model), seed);
-    method = crystal ? StartMethod::lattice : StartMethod::growth;
-  }
+  if (!(packing_fraction > 0.0 && packing_fraction <= max_packing_fraction))
+    throw_bad_input(
+        fmt::format("packing fraction {} is not allowed: above 0 and at most {}", packing_fraction, max_packing_fraction));
+  if (particles == 1) throw_bad_input("1 particle is not allowed: at least 2, for it has nothing to collide with");
+  const kernels::KernelTable& table = kernel_table(isa);
+  const Arrangement arrangement = model.species.size() > 1 ? Arrangement::halves : Arrangement::random;
+
+  // These also refuse what is wrong with the model or the number of particles.
+  const double largest_mixed = largest_lattice_packing_fraction(model, particles, Arrangement::random, seed);
+  const Configuration dilute = hard_sphere_start(
+      model, particles, std::min({melt_packing_fraction, 0.9 * packing_fraction, 0.9 * largest_mixed}), Arrangement::random, seed);
+  check_box(dilute, packing_fraction, table);
+  const double largest_on_lattice = largest_lattice_packing_fraction(model, particles, arrangement, seed);
+  if (method == StartMethod::automatic)
+    method = packing_fraction < dense && lattice_room * packing_fraction <= largest_on_lattice ? StartMethod::lattice
+                                                                                               : StartMethod::growth;
   std::optional<Configuration> start;
-  if (method == StartMethod::growth) start = grow(model, particles, wanted, seed, isa, monitor);
-  if (method == StartMethod::lattice) start = hard_sphere_start(model, particles, wanted, crystal_of(model), seed);
-  if (method == StartMethod::contraction) {
-    const double from =
-        std::min({dense, wanted, lattice_room * largest_lattice_packing_fraction(model, particles, crystal_of(model), seed)});
-    start = contract(hard_sphere_start(model, particles, from, crystal_of(model), seed), wanted, {}, seed, monitor);
-  }
-  if (!start) return start;
-  wrap_positions(*start);
-  check_no_overlap(*start, kernel_table(isa));
+  if (method == StartMethod::growth)
+    start = grown_start(dilute, packing_fraction, seed, table, monitor);
+  else if (method == StartMethod::lattice)
+    start = hard_sphere_start(model, particles, packing_fraction, arrangement, seed);
+  else
+    start =
+        contract(hard_sphere_start(model, particles, std::min({packing_fraction, dense, largest_on_lattice}), arrangement, seed),
+                 packing_fraction, {}, seed, monitor);
+  if (start && any_overlap(*start, table))
+    throw Error(ErrorCode::internal, fmt::format("the start by {} overlaps", to_string(method)));
   return start;
 }
 

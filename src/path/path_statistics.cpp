@@ -7,7 +7,7 @@ namespace lanescape {
 
 PathStatistics::PathStatistics(std::size_t slots, std::size_t particles)
     : particles_(static_cast<double>(particles)),
-      participation_(participation_bins, 0),
+      participation_(particles, 0),
       alpha2_(alpha2_bins, 0),
       particle_lengths_(slots, 0.0) {}
 
@@ -23,10 +23,10 @@ void PathStatistics::add_displacement(const VectorAlgebra& algebra, const Aligne
 
 void PathStatistics::add_step(const VectorAlgebra& algebra, const AlignedArray& from, const AlignedArray& to) {
   add_displacement(algebra, from, to);
-  const double share = last_participation_ / particles_, alpha2 = 0.6 / share - 1.0;
-  // n is at most N, but for rounding; a step of one and the same length for c particles lies at the upper edge of its bin.
-  const auto bin = static_cast<std::size_t>(std::max(0.0, std::ceil(share * participation_bins - 1e-9) - 1.0));
-  ++participation_[std::min(bin, participation_bins - 1)];
+  const double alpha2 = 0.6 * particles_ / last_participation_ - 1.0;
+  // Steps of one and the same length for c particles have n = c but for rounding.
+  const auto bin = static_cast<std::size_t>(std::max(0.0, std::ceil(last_participation_ - 1e-6) - 1.0));
+  ++participation_[std::min(bin, participation_.size() - 1)];
   ++alpha2_[std::min(static_cast<std::size_t>((alpha2 + 1.0) / alpha2_width), alpha2_bins - 1)];
 }
 

@@ -13,8 +13,8 @@ namespace lanescape {
 // What is summed along a path, in constant memory.
 class PathStatistics {
  public:
-  // Bins of n/N over (0, 1], and of alpha_2 from -1 on, the last one open.
-  static constexpr std::size_t participation_bins = 100, alpha2_bins = 400;
+  // n/N has a bin for each whole n, of width 1 up to n itself; alpha_2 starts at -1, its last bin is open.
+  static constexpr std::size_t alpha2_bins = 400;
   static constexpr double alpha2_width = 0.2;
 
   PathStatistics(std::size_t slots, std::size_t particles);

@@ -86,7 +86,7 @@ struct Search {
 template <class Stepper>
 void add_histograms(PathResult& result, const PathFinder<Stepper>& finder) {
   const PathStatistics& statistics = finder.statistics();
-  constexpr double share = 1.0 / PathStatistics::participation_bins;
+  const double share = 1.0 / static_cast<double>(statistics.participation_histogram().size());
   result.histograms.push_back({"participation_ratio", share, share, statistics.participation_histogram()});
   result.histograms.push_back(
       {"alpha_2", PathStatistics::alpha2_width - 1.0, PathStatistics::alpha2_width, statistics.alpha2_histogram()});
@@ -130,7 +130,7 @@ PathResult summarise(const Search<Stepper>& search, const ConfigurationPair& pai
   result.frames.push_back(reversed ? pair.finish : pair.start);
   const auto add = [&](AlignedArray q) {
     prepared.metric.to_positions(q);
-    result.frames.push_back({pair.start.box, pair.start.species, prepared.layout.to_user(q)});
+    result.frames.push_back({pair.start.box, pair.start.species, prepared.layout.to_user(q), pair.start.radii});
   };
   for (const AlignedArray& q : finder.recorder().frames()) add(q);
   if (finder.outcome() == Outcome::reached)

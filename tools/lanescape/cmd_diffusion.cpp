@@ -109,6 +109,7 @@ Json run_diffusion_command(DiffusionState& state, const Options& options, int& s
   const Model model = state.system.resolve();
   if (state.plot && state.common.out.empty() && state.common.resume.empty())
     throw_bad_input("--plot needs --out: the plots are files");
+  state.setup.settle(model);
   const Configuration start = state.setup.start(model, state.common, isa);
   const DiffusionRunOptions run_with = run_options(state, model, start);
   OutputFolder folder = open_folder(state.common);

@@ -18,6 +18,7 @@ Subcommand add_endpoints(CLI::App& app) {
             state->common.check();
             const Isa isa = state->common.resolve_isa();
             const Model model = state->system.resolve();
+            state->setup.settle(model);
             const Configuration start = state->setup.start(model, state->common, isa);
             const EndPointProtocol protocol = state->setup.resolve(model, start.size(), state->common.seed);
             OutputFolder folder = open_folder(state->common);

@@ -229,6 +229,9 @@ Json run_path(PathState& state, const Options& options, const Options& setup_opt
   const PathRunOptions path_options = state.run_options(model);
   const bool resumed = !state.common.resume.empty(), from_files = !state.pair_files.empty();
   if (state.plot && state.common.out.empty() && !resumed) throw_bad_input("--plot needs --out: the plots are files");
+  state.method = to_string(path_options.method);
+  state.step = path_options.step_length();
+  if (!from_files) state.setup.settle(model);
   PathInput input = read_input(state, model, isa);
   toml::table resolved = options.resolved();
   if (!from_files)

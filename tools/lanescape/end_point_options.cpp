@@ -127,6 +127,16 @@ EndPointProtocol EndPointSetup::resolve(const Model& model, std::size_t particle
   return options;
 }
 
+void EndPointSetup::settle(const Model& model) {
+  if (std::holds_alternative<LennardJonesModel>(model)) {
+    if (!temperature_) temperature_ = 1.0;
+    if (!density_ && start_file_.empty()) density_ = 1.2;
+  } else if (start_file_.empty()) {
+    if (!packing_fraction_) packing_fraction_ = 0.5;
+    if (!start_method_) start_method_ = "auto";
+  }
+}
+
 Configuration EndPointSetup::start(const Model& model, const CommonOptions& common, Isa isa) const {
   resolve(model, particles_, common.seed);  // refuses options before there is work to wait for
   if (const auto* soft = std::get_if<LennardJonesModel>(&model)) {

@@ -24,6 +24,8 @@ class EndPointSetup {
   static double default_distance(std::size_t particles);
   // What to run; throws Error(bad_input) for anything out of range, and for options of the other family.
   EndPointProtocol resolve(const Model& model, std::size_t particles, std::uint64_t seed) const;
+  // Fills in the state point where it was not given, so that the resolved run file has it.
+  void settle(const Model& model);
   // The configuration that molecular dynamics starts from: --start FILE; else an fcc crystal, or of dense hard spheres what
   // --start-method makes of one.
   Configuration start(const Model& model, const CommonOptions& common, Isa isa) const;
