@@ -60,8 +60,8 @@ void HardSphereList::rebuild(const AlignedArray& positions) {
   const auto& pairs = spheres_->pairs_within(positions, skin_);
   const AlignedArray& radii = spheres_->radii();
   const std::size_t slots = radii.size(), count = padded(pairs.size(), kernels::slot_padding);
-  if (first_.size() < count) {
-    const std::size_t room = 2 * count;
+  if (first_.empty() || first_.size() < count) {
+    const std::size_t room = 2 * count + kernels::slot_padding;
     for (auto* array : {&first_, &second_}) array->resize(room);
     for (auto* arrays : {&shift_, &separation_, &force_})
       for (AlignedArray& array : *arrays) array.resize(room);

@@ -15,6 +15,7 @@
 #include "landscape/hard_sphere_landscape.hpp"
 #include "landscape/kinematic_landscape.hpp"
 #include "landscape/lennard_jones_landscape.hpp"
+#include "stepper/away.hpp"
 #include "stepper/contour.hpp"
 #include "stepper/escape.hpp"
 
@@ -34,9 +35,12 @@ std::unique_ptr<SoftLandscape> make_landscape(const LennardJonesModel& model, co
   return std::make_unique<KinematicLandscape>(std::move(landscape), metric);
 }
 
-bool is_hard(PathMethod method) { return method == PathMethod::avoidance; }
-// Hard spheres make long detours.
-constexpr std::uint64_t hard_patience = 1000;
+bool is_hard(PathMethod method) { return method == PathMethod::avoidance || method == PathMethod::away; }
+// How much longer than soft particles a method may take without progress: avoidance makes long detours of short steps.
+std::uint64_t patience_factor(PathMethod method) {
+  if (method == PathMethod::avoidance) return 1000;
+  return method == PathMethod::away ? 10 : 1;
+}
 
 // A pair as the search sees it, all of it checked.
 struct PreparedPair {
@@ -171,7 +175,7 @@ struct Walk {
   std::unique_ptr<SoftLandscape> landscape;
   Stepper stepper;
 
-  Walk(const Run& run, const ConfigurationPair& pair, const PreparedPair& prepared)
+  Walk(const Run& run, const ConfigurationPair& pair, const PreparedPair& prepared, const AlignedArray&)
       : landscape(
             make_landscape(std::get<LennardJonesModel>(run.model), pair.start.box, prepared.layout, run.isa, prepared.metric)),
         stepper(*landscape, prepared.landscape_energy, options(run)) {}
@@ -188,7 +192,7 @@ struct Walk<AvoidanceStepper> {
   std::unique_ptr<HardSphereLandscape> landscape;
   AvoidanceStepper stepper;
 
-  Walk(const Run& run, const ConfigurationPair& pair, const PreparedPair& prepared)
+  Walk(const Run& run, const ConfigurationPair& pair, const PreparedPair& prepared, const AlignedArray&)
       : landscape(std::make_unique<HardSphereLandscape>(pair.start.box, prepared.layout, pair.start.radii, run.isa)),
         stepper(*landscape, {.direct_step = run.options.step_length(),
                              .avoidance_step = run.options.avoidance_step,
@@ -196,16 +200,27 @@ struct Walk<AvoidanceStepper> {
   double violation(const AlignedArray& position) { return landscape->violation(position); }
 };
 
+template <>
+struct Walk<AwayStepper> {
+  std::unique_ptr<HardSphereLandscape> landscape;
+  AwayStepper stepper;
+
+  Walk(const Run& run, const ConfigurationPair& pair, const PreparedPair& prepared, const AlignedArray& goal)
+      : landscape(std::make_unique<HardSphereLandscape>(pair.start.box, prepared.layout, pair.start.radii, run.isa)),
+        stepper(pair.start.box, prepared.layout, pair.start.radii, *landscape, goal, {}) {}
+  double violation(const AlignedArray& position) { return landscape->violation(position); }
+};
+
 template <class Stepper>
 PathResult search_one_way(Run& run, std::size_t number, bool reversed) {
   const ConfigurationPair& pair = run.pairs[number];
   const PreparedPair& prepared = run.prepared[number];
-  Walk<Stepper> walk(run, pair, prepared);
+  const AlignedArray &start = reversed ? prepared.goal : prepared.start, &goal = reversed ? prepared.start : prepared.goal;
+  Walk<Stepper> walk(run, pair, prepared, goal);
   FinderOptions finder_options = run.options.finder;
-  if (is_hard(run.options.method)) finder_options.patience *= hard_patience;
-  Search<Stepper> search{PathFinder<Stepper>(walk.landscape->algebra(), std::move(walk.stepper),
-                                             reversed ? prepared.goal : prepared.start, reversed ? prepared.start : prepared.goal,
-                                             prepared.layout.size(), finder_options)};
+  finder_options.patience *= patience_factor(run.options.method);
+  Search<Stepper> search{
+      PathFinder<Stepper>(walk.landscape->algebra(), std::move(walk.stepper), start, goal, prepared.layout.size(), finder_options)};
   const auto file = run.checkpoint.folder / fmt::format("path-{:04}{}.h5", number + 1, reversed ? "-reverse" : "");
   if (run.checkpoint.enabled() && run.checkpoint.resume) load_checkpoint(file, search);
 
@@ -253,6 +268,8 @@ PathResult search_pair(Run& run, std::size_t number) {
       return search_pair<EscapeStepper>(run, number);
     case PathMethod::avoidance:
       return search_pair<AvoidanceStepper>(run, number);
+    case PathMethod::away:
+      return search_pair<AwayStepper>(run, number);
   }
   throw Error(ErrorCode::internal, "no such method");
 }
@@ -260,9 +277,10 @@ PathResult search_pair(Run& run, std::size_t number) {
 }  // namespace
 
 PathMethod parse_path_method(std::string_view word) {
-  for (const PathMethod method : {PathMethod::contour, PathMethod::escape, PathMethod::avoidance})
+  for (const PathMethod method : {PathMethod::contour, PathMethod::escape, PathMethod::avoidance, PathMethod::away})
     if (word == to_string(method)) return method;
-  throw_bad_input(fmt::format("unknown method '{}': allowed are contour, escape (soft particles), avoidance (hard spheres)", word));
+  throw_bad_input(
+      fmt::format("unknown method '{}': allowed are contour, escape (soft particles), avoidance, away (hard spheres)", word));
 }
 
 const char* to_string(PathMethod method) {
@@ -273,6 +291,8 @@ const char* to_string(PathMethod method) {
       return "escape";
     case PathMethod::avoidance:
       return "avoidance";
+    case PathMethod::away:
+      return "away";
   }
   return "";
 }
@@ -280,7 +300,7 @@ const char* to_string(PathMethod method) {
 void check_method(PathMethod method, const Model& model) {
   if (is_hard(method) == std::holds_alternative<HardSphereModel>(model)) return;
   throw_bad_input(
-      fmt::format("method {} is not for model {}: contour and escape are for soft particles, avoidance for hard spheres",
+      fmt::format("method {} is not for model {}: contour and escape are for soft particles, avoidance and away for hard spheres",
                   to_string(method), mixture_of(model).name));
 }
 

@@ -19,8 +19,8 @@
 
 namespace lanescape {
 
-// Contour and escape for soft particles, avoidance for hard spheres.
-enum class PathMethod { contour, escape, avoidance };
+// Contour and escape for soft particles, avoidance and away for hard spheres.
+enum class PathMethod { contour, escape, avoidance, away };
 // Throws Error(bad_input) naming the allowed words.
 PathMethod parse_path_method(std::string_view word);
 const char* to_string(PathMethod method);
@@ -29,7 +29,7 @@ void check_method(PathMethod method, const Model& model);
 
 struct PathRunOptions {
   PathMethod method = PathMethod::contour;
-  std::optional<double> direct_step;  // delta_di, in 3N space; else 0.001 soft, 0.01 hard [sigma]
+  std::optional<double> direct_step;  // delta_di, in 3N space; else 0.001 soft, 0.01 hard; none for away [sigma]
   double avoidance_step = 1e-4;       // delta_ca, of each particle that moves [sigma]
   kernels::ContactPotential fictitious = kernels::ContactPotential::harmonic;
   std::optional<double> landscape_energy;  // E_L; else the higher of the two ends [epsilon]

@@ -72,14 +72,11 @@ std::optional<StepKind> AwayStepper::step(const PathPoint& at, AlignedArray& nex
   }
   if (!resolve(contact_i_, contact_j_)) return std::nullopt;
   write(next);
-  accept(StepKind::detour, at.position, next);
-  if (violation_ > slack) {
-    fail(fmt::format("a sphere that was moved away overlaps another by {:.3g}", violation_));
-    return std::nullopt;
-  }
+  const auto kind = accept(StepKind::detour, at.position, next);
+  if (!kind) return std::nullopt;
   contact_i_ = contact_j_ = 0;
   ++corrections_[std::min<std::size_t>(moves_, corrections_.size()) - 1];
-  return StepKind::detour;
+  return kind;
 }
 
 void AwayStepper::exchange(Archive& archive, const AlignedArray&) {
@@ -101,12 +98,18 @@ void AwayStepper::write(AlignedArray& position) const {
     for (std::size_t axis = 0; axis < 3; ++axis) position[axis * slots_ + places_[i]] = position_[i][axis];
 }
 
-StepKind AwayStepper::accept(StepKind kind, const AlignedArray& from, const AlignedArray& to) {
+// Flights cannot make an overlap deeper, away steps can.
+std::optional<StepKind> AwayStepper::accept(StepKind kind, const AlignedArray& from, const AlignedArray& to) {
+  const double violation = landscape_->violation(to);
+  ++evaluations_;
+  if (kind == StepKind::detour && violation > slack) {
+    fail(fmt::format("spheres overlap by {:.3g} after an away step", violation));
+    return std::nullopt;
+  }
+  violation_ = violation;
   moved_ = 0;
   for (const std::size_t s : places_)
     if (from[s] != to[s] || from[slots_ + s] != to[slots_ + s] || from[2 * slots_ + s] != to[2 * slots_ + s]) ++moved_;
-  violation_ = landscape_->violation(to);
-  ++evaluations_;
   return kind;
 }
 
@@ -156,7 +159,7 @@ double AwayStepper::image_horizon() const {
 bool AwayStepper::resolve(std::size_t p, std::size_t q) {
   pushes_.clear();
   moves_ = 0;
-  // A point at contact distance is nearer than that to every ray that heads for its side.
+  // A centre at contact distance is nearer than that to every ray that heads for its side.
   const double p_ahead = dot(separation(position_[q], p), heading(q));
   const double q_ahead = dot(separation(position_[p], q), heading(p));
   if (!(std::max(p_ahead, q_ahead) > 0.0)) return fail("two spheres collide and neither is in the other's way");

@@ -75,7 +75,7 @@ class AwayStepper {
 
   void read(const AlignedArray& position);
   void write(AlignedArray& position) const;
-  StepKind accept(StepKind kind, const AlignedArray& from, const AlignedArray& to);
+  std::optional<StepKind> accept(StepKind kind, const AlignedArray& from, const AlignedArray& to);
   Contact fly();
   Contact first_contact(double now) const;
   double image_horizon() const;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -15,35 +14,13 @@
 #include "core/aligned_array.hpp"
 #include "core/random.hpp"
 #include "interaction/lennard_jones.hpp"
+#include "verification/check.hpp"
+#include "verification/hard_sphere_cases.hpp"
+#include "verification/hard_sphere_checks.hpp"
 #include "verification/reference_bridge.hpp"
 
 namespace lanescape {
 namespace {
-
-// |value - expected| in units of `scale`. Where nothing contributes (scale 0) only the exact value will do; a result that is
-// not a number is infinitely wrong.
-double relative(long double value, long double expected, long double scale) {
-  const long double difference = std::abs(value - expected);
-  if (difference == 0.0L) return 0.0;
-  const auto deviation = static_cast<double>(difference / scale);
-  return std::isnan(deviation) ? std::numeric_limits<double>::infinity() : deviation;
-}
-
-bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
-
-// Gathers the worst of many cases.
-struct Check {
-  Deviation deviation;
-
-  Check(const kernels::KernelTable& table, const char* kernel, double tolerance)
-      : deviation{kernel, table.name, "", 0.0, tolerance, 0} {}
-  void add(const std::string& name, double value) {
-    ++deviation.cases;
-    if (value <= deviation.worst) return;
-    deviation.worst = value;
-    deviation.worst_case = name;
-  }
-};
 
 // How much more than the tolerances says the largest coordinate allows.
 double rounding_allowance(const Configuration& configuration) {
@@ -154,7 +131,9 @@ std::vector<Deviation> verify_vector_algebra(const kernels::KernelTable& table) 
       second(table, "displacement_moments second", tolerance::vector_sum),
       fourth(table, "displacement_moments fourth", tolerance::vector_sum);
   Check difference(table, "difference", tolerance::exact), combine(table, "combine", tolerance::linear_combination),
-      axpy(table, "axpy", tolerance::linear_combination);
+      axpy(table, "axpy", tolerance::linear_combination),
+      largest_displacement(table, "largest_displacement_squared", tolerance::displacement),
+      lengths(table, "add_particle_lengths", tolerance::displacement);
   // The short ones leave each remainder of the four partial sums; the long ones show how errors grow.
   for (const std::size_t slots : {0U, 8U, 16U, 24U, 32U, 40U, 48U, 56U, 64U, 72U, 112U, 264U, 1000U}) {
     const std::size_t n = 3 * slots;
@@ -171,6 +150,11 @@ std::vector<Deviation> verify_vector_algebra(const kernels::KernelTable& table) 
     distance.add(name, relative(table.distance_squared(a.data(), b.data(), n), square.value, square.magnitude));
 
     Sum squares, fourths;
+    long double largest = 0.0L;
+    double worst_length = 0.0;
+    AlignedArray sums = random_array(slots, 4);
+    const AlignedArray before = sums;
+    table.add_particle_lengths(sums.data(), a.data(), b.data(), slots);
     for (std::size_t i = 0; i < slots; ++i) {
       long double r2 = 0.0L;
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -179,7 +163,12 @@ std::vector<Deviation> verify_vector_algebra(const kernels::KernelTable& table) 
       }
       squares.add(r2);
       fourths.add(r2 * r2);
+      largest = std::max(largest, r2);
+      const long double r = std::sqrt(r2);
+      worst_length = std::max(worst_length, relative(sums[i], before[i] + r, std::abs(before[i]) + r));
     }
+    largest_displacement.add(name, relative(table.largest_displacement_squared(a.data(), b.data(), slots), largest, largest));
+    lengths.add(name, worst_length);
     const kernels::DisplacementMoments moments = table.displacement_moments(a.data(), b.data(), slots);
     second.add(name, relative(moments.second, squares.value, squares.magnitude));
     fourth.add(name, relative(moments.fourth, fourths.value, fourths.magnitude));
@@ -212,13 +201,16 @@ std::vector<Deviation> verify_vector_algebra(const kernels::KernelTable& table) 
     combine.add(name, worst);
   }
   return {dot.deviation,        distance.deviation, second.deviation, fourth.deviation,
-          difference.deviation, combine.deviation,  axpy.deviation};
+          difference.deviation, combine.deviation,  axpy.deviation,   largest_displacement.deviation,
+          lengths.deviation};
 }
 
 std::vector<Deviation> verify_kernels(Isa isa, const std::vector<LennardJonesCase>& cases) {
   const kernels::KernelTable& table = kernel_table(isa);
   std::vector<Deviation> deviations = verify_lennard_jones(table, cases);
   for (auto& deviation : verify_vector_algebra(table)) deviations.push_back(std::move(deviation));
+  for (auto& deviation : verify_hard_spheres(table, hard_sphere_cases())) deviations.push_back(std::move(deviation));
+  for (auto& deviation : verify_event_driven(table)) deviations.push_back(std::move(deviation));
   return deviations;
 }
 

@@ -35,6 +35,10 @@ inline constexpr double vector_sum = 5e-15;
 // without fused operations, 4 x 2^-53 (measured 2.1e-16). A bound, hence no further factor.
 inline constexpr double linear_combination = 4.5e-16;
 
+// |b - a|^2, and lengths |b - a| added to others: a rounding of the difference counts twice in the square, three products and two
+// sums follow. A bound, hence no further factor.
+inline constexpr double displacement = 6.7e-16;
+
 // What the instruction sets define to the bit.
 inline constexpr double exact = 0.0;
 
@@ -60,7 +64,7 @@ std::string describe(const Deviation& deviation);
 std::vector<Deviation> verify_lennard_jones(const kernels::KernelTable& table, const std::vector<LennardJonesCase>& cases);
 // The vector algebra of a table against loops in long double, at lengths that leave every remainder.
 std::vector<Deviation> verify_vector_algebra(const kernels::KernelTable& table);
-// Both. Throws Error(bad_input) where the instruction set is not available.
+// These and those of hard_sphere_checks.hpp. Throws Error(bad_input) where the instruction set is not available.
 std::vector<Deviation> verify_kernels(Isa isa, const std::vector<LennardJonesCase>& cases);
 
 }  // namespace lanescape

@@ -160,7 +160,7 @@ class Usage(ProgramTest):
     def test_what_nobody_has_asked_for_yet_is_absent(self):
         for subcommand in SUBCOMMANDS:
             text = lanescape(subcommand, "--help").stdout
-            for absent in ("ucg", "--adaptive", "away"):
+            for absent in ("ucg", "--adaptive"):
                 self.assertNotIn(absent, text, subcommand)
         for absent in ("shorten", "insert", "analyze"):
             self.refused(absent, says=absent)

@@ -31,6 +31,8 @@ struct PathState {
     if (options.method != PathMethod::avoidance && (avoidance_step || fictitious))
       throw_bad_input(fmt::format("{} is not allowed with method {}: it is for avoidance",
                                   avoidance_step ? "--avoidance-step" : "--fictitious", to_string(options.method)));
+    if (options.method == PathMethod::away && step)
+      throw_bad_input("--step is not allowed with method away: its steps end at contacts");
     options.direct_step = step;
     options.avoidance_step = avoidance_step.value_or(options.avoidance_step);
     if (fictitious) options.fictitious = parse_contact_potential(*fictitious);
@@ -230,7 +232,7 @@ Json run_path(PathState& state, const Options& options, const Options& setup_opt
   const bool resumed = !state.common.resume.empty(), from_files = !state.pair_files.empty();
   if (state.plot && state.common.out.empty() && !resumed) throw_bad_input("--plot needs --out: the plots are files");
   state.method = to_string(path_options.method);
-  state.step = path_options.step_length();
+  if (path_options.method != PathMethod::away) state.step = path_options.step_length();
   if (!from_files) state.setup.settle(model);
   PathInput input = read_input(state, model, isa);
   toml::table resolved = options.resolved();
@@ -278,7 +280,7 @@ Subcommand add_path(CLI::App& app) {
   const auto options = std::make_shared<Options>(*sub);
   const auto state = std::make_shared<PathState>();
   options->add("--pair", state->pair_files, "files with two frames, the end points; without any, pairs are made as by endpoints");
-  options->add("--method", state->method, "contour or escape; avoidance for hard spheres [contour, avoidance]");
+  options->add("--method", state->method, "contour or escape; avoidance or away for hard spheres [contour, avoidance]");
   // Nothing to choose yet: a name for what is done anyway.
   sub->add_flag_function(
          "--faithful", [](std::int64_t) {}, "steps exactly as in the source (the default)")

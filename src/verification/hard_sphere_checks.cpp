@@ -1,0 +1,453 @@
+#include "verification/hard_sphere_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "configuration/particle_layout.hpp"
+#include "core/aligned_array.hpp"
+#include "core/random.hpp"
+#include "dynamics/event_calendar.hpp"
+#include "interaction/hard_sphere.hpp"
+#include "reference/hard_sphere.hpp"
+#include "verification/check.hpp"
+
+namespace lanescape {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Pairs of particles in the user's order, sorted.
+using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+// Pairs in one of the two and not in the other; one that is there twice counts too.
+double wrong_pairs(const Pairs& a, const Pairs& b) {
+  Pairs different;
+  std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(different));
+  return static_cast<double>(different.size());
+}
+
+// A case in the library's order.
+struct Prepared {
+  const Configuration& configuration;
+  ParticleLayout layout;
+  AlignedArray positions;
+  std::vector<std::size_t> particle_of;  // of each slot
+
+  explicit Prepared(const Configuration& c)
+      : configuration(c),
+        layout(c.species, c.size() == 0 ? 1 : 1 + static_cast<std::size_t>(*std::max_element(c.species.begin(), c.species.end()))),
+        positions(layout.to_slots(c.positions)),
+        particle_of(layout.slots(), c.size()) {
+    for (std::size_t i = 0; i < c.size(); ++i) particle_of[layout.slot_of(i)] = i;
+  }
+
+  // Sorted pairs of particles; (N, N) for a pair that is none, out of order or with padding.
+  template <class SlotPairs>
+  Pairs to_particles(const SlotPairs& slots, std::size_t count) const {
+    Pairs pairs;
+    for (std::size_t k = 0; k < count; ++k) {
+      const kernels::SpherePair pair = slots[k];
+      const std::size_t n = configuration.size();
+      if (!(0 <= pair.first && pair.first < pair.second && static_cast<std::size_t>(pair.second) < particle_of.size())) {
+        pairs.emplace_back(n, n);
+        continue;
+      }
+      const std::size_t i = particle_of[static_cast<std::size_t>(pair.first)],
+                        j = particle_of[static_cast<std::size_t>(pair.second)];
+      pairs.emplace_back(std::min(i, j), std::max(i, j));
+    }
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+  }
+};
+
+Pairs overlapping_pairs(const std::vector<double>& positions, const Configuration& configuration) {
+  Pairs pairs;
+  for (const auto& overlap : reference::overlaps(positions, configuration.radii, configuration.box.length))
+    pairs.emplace_back(overlap.i, overlap.j);
+  return pairs;
+}
+
+double largest_radius(const Configuration& configuration) {
+  return configuration.radii.empty() ? 0.0 : *std::max_element(configuration.radii.begin(), configuration.radii.end());
+}
+
+// How far beyond contact the nearest image is still the only one.
+double room(const Configuration& configuration) {
+  return std::max(0.0, 0.5 * configuration.box.shortest() - 2.0 * largest_radius(configuration));
+}
+
+struct AllPairsChecks {
+  Check any, within, truncated, gap;
+
+  explicit AllPairsChecks(const kernels::KernelTable& table)
+      : any(table, "sphere_any_overlap", tolerance::exact),
+        within(table, "sphere_pairs_within", tolerance::exact),
+        truncated(table, "sphere_pairs_within beyond the capacity", tolerance::exact),
+        gap(table, "sphere_smallest_gap", tolerance::exact) {}
+
+  void run(const std::string& name, const Prepared& prepared, const kernels::KernelTable& table) {
+    const Configuration& c = prepared.configuration;
+    HardSphereOverlap spheres(c.box, prepared.layout, c.radii, table);
+    any.add(name, spheres.any_overlap(prepared.positions) != reference::any_overlap(c.positions, c.radii, c.box.length));
+    gap.add(name,
+            !same_bits(spheres.smallest_gap(prepared.positions), reference::smallest_gap(c.positions, c.radii, c.box.length)));
+    for (const double reach : {0.0, 1e-9, 0.01, 0.3, 0.999 * room(c)}) {
+      if (reach > room(c)) continue;
+      const Pairs expected = reference::pairs_within(c.positions, c.radii, c.box.length, reach);
+      const auto& found = spheres.pairs_within(prepared.positions, reach);
+      within.add(fmt::format("{}, reach {:.3g}", name, reach), wrong_pairs(prepared.to_particles(found, found.size()), expected));
+    }
+    run_truncated(name, prepared, spheres);
+  }
+
+ private:
+  // With room for half of the pairs: all are counted, the half that is written is right, and nothing is written behind it.
+  void run_truncated(const std::string& name, const Prepared& prepared, HardSphereOverlap& spheres) {
+    const Configuration& c = prepared.configuration;
+    const std::size_t slots = prepared.layout.slots(), float_slots = (slots + 15) / 16 * 16;
+    std::vector<std::int32_t, AlignedAllocator<std::int32_t>> fractions(3 * float_slots);
+    std::vector<float, AlignedAllocator<float>> reaches(float_slots);
+    const kernels::SphereInput input{
+        prepared.positions.data(), spheres.radii().data(), slots,      {c.box.length[0], c.box.length[1], c.box.length[2]},
+        fractions.data(),          reaches.data(),         float_slots};
+    const Pairs expected = reference::pairs_within(c.positions, c.radii, c.box.length, 0.5 * room(c));
+    const std::size_t capacity = expected.size() / 2;
+    std::vector<kernels::SpherePair> out(capacity + 1, {-7, -7});
+    const std::size_t count = spheres.table().sphere_pairs_within(input, 0.5 * room(c), out.data(), capacity);
+    const Pairs written = prepared.to_particles(out, capacity);
+    Pairs unknown;
+    std::set_difference(written.begin(), written.end(), expected.begin(), expected.end(), std::back_inserter(unknown));
+    truncated.add(name, static_cast<double>(unknown.size()) + (count != expected.size()) + (out[capacity].first != -7));
+  }
+};
+
+// What the reference gives as the force of one contact at most: the scale of its rounding.
+double force_scale(kernels::ContactPotential potential, double s) {
+  return potential == kernels::ContactPotential::cubic ? s * s : s;
+}
+
+struct ListChecks {
+  static constexpr std::array<std::pair<kernels::ContactPotential, reference::FictitiousPotential>, 3> potentials = {
+      {{kernels::ContactPotential::harmonic, reference::FictitiousPotential::harmonic},
+       {kernels::ContactPotential::linear, reference::FictitiousPotential::linear},
+       {kernels::ContactPotential::cubic, reference::FictitiousPotential::cubic}}};
+  Check any, contacts;
+  std::array<Check, 3> forces;
+
+  explicit ListChecks(const kernels::KernelTable& table)
+      : any(table, "sphere_list_any_overlap", tolerance::exact),
+        contacts(table, "sphere_list_contacts", tolerance::exact),
+        forces{Check(table, "sphere_contact_forces harmonic", tolerance::contact_force),
+               Check(table, "sphere_contact_forces linear", tolerance::contact_force),
+               Check(table, "sphere_contact_forces cubic", tolerance::contact_force)} {}
+
+  // A list is made once and then followed while the particles go farther and farther: by thousandths of the skin, within half
+  // of it, at half of it and, in the end, anywhere. Not one overlap may be missed on the way.
+  void run(const std::string& name, const Prepared& prepared, const kernels::KernelTable& table) {
+    const Configuration& c = prepared.configuration;
+    const CounterRandom random(3, RandomStream::displacements);
+    HardSphereOverlap spheres(c.box, prepared.layout, c.radii, table);
+    for (const double skin : {0.0, 0.01, 0.4}) {
+      HardSphereList list(spheres, skin);
+      std::vector<double> positions = c.positions;
+      std::uint64_t move = 0;
+      for (const double step : {0.0, 1e-3, 0.1, 0.29, 0.29, 0.5, 3.0}) {
+        const double length = step * (skin > 0.0 ? skin : 0.05);
+        for (std::size_t k = 0; k < positions.size(); ++k)
+          positions[k] += length * (2.0 * random.uniform(move, static_cast<std::uint32_t>(k)) - 1.0);
+        ++move;
+        follow(fmt::format("{}, skin {}, step {}", name, skin, move), prepared, positions, list);
+      }
+    }
+  }
+
+ private:
+  void follow(const std::string& name, const Prepared& prepared, const std::vector<double>& positions, HardSphereList& list) {
+    const Configuration& c = prepared.configuration;
+    const AlignedArray in_slots = prepared.layout.to_slots(positions);
+    const Pairs expected = overlapping_pairs(positions, c);
+    any.add(name, list.any_overlap(in_slots) != !expected.empty());
+    const ContactPairs found = list.find_contacts(in_slots);
+    contacts.add(name, wrong_pairs(prepared.to_particles(found, found.count), expected));
+
+    for (std::size_t p = 0; p < potentials.size(); ++p) {
+      const auto [kernel_potential, reference_potential] = potentials[p];
+      std::vector<double> scale(c.size(), 0.0);
+      for (const auto& [i, j] : expected)
+        for (const std::size_t k : {i, j}) scale[k] += force_scale(kernel_potential, c.radii[i] + c.radii[j]);
+      // Forces are added to what is there.
+      AlignedArray force(prepared.layout.dimension(), 0.0);
+      list.add_contact_forces(kernel_potential, force);
+      const std::vector<double> in_users_order = prepared.layout.to_user(force);
+      const auto wanted = reference::fictitious_forces(positions, c.radii, c.box.length, reference_potential);
+      double worst = 0.0;
+      for (std::size_t k = 0; k < wanted.size(); ++k) worst = std::max(worst, relative(in_users_order[k], wanted[k], scale[k / 3]));
+      const AlignedArray once = force;
+      list.add_contact_forces(kernel_potential, force);
+      for (std::size_t k = 0; k < force.size(); ++k)
+        if (relative(force[k], 2.0 * once[k], 1.0) > 1e-13) worst = infinity;
+      for (std::size_t slot = 0; slot < prepared.particle_of.size(); ++slot)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          if (prepared.particle_of[slot] == c.size() && force[axis * prepared.particle_of.size() + slot] != 0.0) worst = infinity;
+      forces[p].add(name, worst);
+    }
+  }
+};
+
+AlignedArray random_array(std::size_t length, std::uint64_t which, double extent) {
+  const CounterRandom random(4, RandomStream::displacements);
+  AlignedArray values(length);
+  for (std::size_t i = 0; i < length; ++i) values[i] = extent * (2.0 * random.uniform(which, static_cast<std::uint32_t>(i)) - 1.0);
+  return values;
+}
+
+struct AvoidanceChecks {
+  Check moved, sum, trial;
+
+  explicit AvoidanceChecks(const kernels::KernelTable& table)
+      : moved(table, "sphere_avoidance_trial moved", tolerance::exact),
+        sum(table, "sphere_avoidance_trial sum", tolerance::avoidance),
+        trial(table, "sphere_avoidance_trial trial", tolerance::avoidance) {}
+
+  // `still`: of how many particles one has no force and no sum yet.
+  void run(std::size_t slots, std::size_t still, bool forces, const kernels::KernelTable& table) {
+    AlignedArray position = random_array(3 * slots, 1, 10.0), sums = random_array(3 * slots, 2, 0.2),
+                 force = random_array(3 * slots, 3, forces ? 0.7 : 0.0);
+    for (std::size_t k = 0; k < 3 * slots; ++k)
+      if (k % slots % still == 0) sums[k] = force[k] = 0.0;
+    const AlignedArray sums_before = sums, force_before = force;
+    AlignedArray found(3 * slots, std::numeric_limits<double>::quiet_NaN());
+    const double step = 1e-2;
+    const std::size_t count = table.sphere_avoidance_trial(found.data(), position.data(), sums.data(), force.data(), step, slots);
+
+    long double squared = 0.0L;
+    for (const double f : force_before) squared += static_cast<long double>(f) * f;
+    const long double weight = squared > 0.0L ? 1.0L / std::sqrt(squared) : 0.0L;
+    std::size_t moving = 0;
+    double worst_sum = 0.0, worst_trial = 0.0;
+    for (std::size_t i = 0; i < slots; ++i) {
+      std::array<long double, 3> s{};
+      long double norm = 0.0L;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t at = axis * slots + i;
+        s[axis] = sums_before[at] + weight * force_before[at];
+        norm += s[axis] * s[axis];
+        worst_sum =
+            std::max(worst_sum, relative(sums[at], s[axis], std::abs(sums_before[at]) + std::abs(weight * force_before[at])));
+        if (force[at] != 0.0) worst_sum = infinity;
+      }
+      norm = std::sqrt(norm);
+      moving += norm > 1e-12L;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t at = axis * slots + i;
+        const long double wanted = position[at] + (norm > 1e-12L ? step * s[axis] / norm : 0.0L);
+        worst_trial = std::max(worst_trial, relative(found[at], wanted, std::abs(position[at]) + step));
+      }
+    }
+    const std::string name = fmt::format("{} slots, one of {} at rest, {}", slots, still, forces ? "forces" : "no forces");
+    moved.add(name, count != moving);
+    sum.add(name, worst_sum);
+    trial.add(name, worst_trial);
+  }
+};
+
+// A sphere among others, each at its own time.
+struct FlightCase {
+  std::vector<kernels::FlyingSphere, AlignedAllocator<kernels::FlyingSphere>> spheres;
+  std::vector<std::int32_t> neighbours;
+  std::size_t count;
+  double now, growth;
+  reference::Vector box;
+
+  FlightCase(std::size_t neighbours_wanted, std::uint64_t which, double growth_rate, double speed)
+      : neighbours((neighbours_wanted + 7) / 8 * 8, 0),
+        count(neighbours_wanted),
+        now(1.5),
+        growth(growth_rate),
+        box{5.0, 6.0, 4.5} {
+    const CounterRandom random(5, RandomStream::displacements);
+    for (std::uint32_t i = 0; i < neighbours_wanted + 5; ++i) {
+      const auto draw = [&, k = 0U]() mutable { return random.uniform(which, i, k++); };
+      kernels::FlyingSphere s{};
+      s.radius = 0.4 + 0.2 * draw();
+      s.time = 1.5 * draw();
+      s.vx = speed * (2.0 * draw() - 1.0);
+      s.vy = speed * (2.0 * draw() - 1.0);
+      s.vz = speed * (2.0 * draw() - 1.0);
+      // Some boxes away at most, as lists between two resynchronisations.
+      s.x = 2.0 * box[0] * draw() - box[0];
+      s.y = 2.0 * box[1] * draw() - box[1];
+      s.z = 2.0 * box[2] * draw() - box[2];
+      spheres.push_back(s);
+    }
+    // The neighbours of sphere 2 in an order of their own; what follows them is padding.
+    for (std::size_t k = 0; k < count; ++k) neighbours[k] = static_cast<std::int32_t>(3 + (7 * k) % count);
+  }
+
+  // Puts a sphere at the distance s(now) + gap of sphere 2, moving off (or on, where negative) at the rate `parting` relative to
+  // the growing surfaces.
+  void place_near_contact(std::int32_t which, double gap, double parting) {
+    const kernels::FlyingSphere& self = spheres[2];
+    kernels::FlyingSphere& s = spheres[static_cast<std::size_t>(which)];
+    const double sum = self.radius + s.radius, r = sum * (1.0 + growth * now) + gap, rate = sum * growth + parting;
+    s.time = now;
+    s.x = self.x + self.vx * (now - self.time) + r * 0.6;
+    s.y = self.y + self.vy * (now - self.time) - r * 0.8;
+    s.z = self.z + self.vz * (now - self.time);
+    s.vx = self.vx + rate * 0.6;
+    s.vy = self.vy - rate * 0.8;
+    s.vz = self.vz;
+  }
+
+  reference::FreeSphere free(std::int32_t which) const {
+    const kernels::FlyingSphere& s = spheres[static_cast<std::size_t>(which)];
+    return {{s.x, s.y, s.z}, {s.vx, s.vy, s.vz}, s.time, s.radius, s.radius * growth};
+  }
+  kernels::CollisionEvent find(const kernels::KernelTable& table) const {
+    return table.sphere_first_collision({spheres.data(), neighbours.data(), count, 2, now, growth, {box[0], box[1], box[2]}});
+  }
+  kernels::CollisionEvent expected() const {
+    kernels::CollisionEvent first{infinity, -1};
+    for (std::size_t k = 0; k < count; ++k) {
+      const double time = reference::collision_time(free(2), free(neighbours[k]), now, box);
+      if (time < first.time) first = {time, neighbours[k]};
+    }
+    return first;
+  }
+  // |r - s| of a pair at a time, relative to s and the distances flown.
+  double off_contact(std::int32_t partner, double time) const {
+    const kernels::FlyingSphere &a = spheres[2], &b = spheres[static_cast<std::size_t>(partner)];
+    const auto at = [](double x, double v, double start, double t) {
+      return static_cast<long double>(x) + static_cast<long double>(v) * (static_cast<long double>(t) - start);
+    };
+    const std::array<double, 3> xa = {a.x, a.y, a.z}, xb = {b.x, b.y, b.z}, va = {a.vx, a.vy, a.vz}, vb = {b.vx, b.vy, b.vz};
+    long double squared = 0.0L, flown = 0.0L;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      // The image that is the nearest now.
+      const long double d_now = at(xb[axis], vb[axis], b.time, now) - at(xa[axis], va[axis], a.time, now);
+      const long double d = at(xb[axis], vb[axis], b.time, time) - at(xa[axis], va[axis], a.time, time) -
+                            box[axis] * std::nearbyint(d_now / box[axis]);
+      squared += d * d;
+      flown += std::abs(xa[axis]) + std::abs(xb[axis]) +
+               std::abs(static_cast<long double>(vb[axis]) - va[axis]) * (static_cast<long double>(time) - now);
+    }
+    const long double s = (static_cast<long double>(a.radius) + b.radius) * (1.0L + static_cast<long double>(growth) * time);
+    return relative(std::sqrt(squared), s, s + flown);
+  }
+};
+
+struct FlightChecks {
+  Check exact, growing, calendar;
+
+  explicit FlightChecks(const kernels::KernelTable& table)
+      : exact(table, "sphere_first_collision", tolerance::exact),
+        growing(table, "sphere_first_collision growing", tolerance::growing_contact),
+        calendar(table, "calendar_update", tolerance::exact) {}
+
+  void add_exact(const std::string& name, const FlightCase& flight, const kernels::KernelTable& table) {
+    const kernels::CollisionEvent found = flight.find(table), wanted = flight.expected();
+    exact.add(name, !same_bits(found.time, wanted.time) + (found.partner != wanted.partner));
+  }
+  void add_growing(const std::string& name, const FlightCase& flight, const kernels::KernelTable& table) {
+    const kernels::CollisionEvent found = flight.find(table), wanted = flight.expected();
+    if (found.partner != wanted.partner || found.partner < 0 || !(found.time >= flight.now))
+      growing.add(name, found.partner == wanted.partner && found.time == wanted.time ? 0.0 : infinity);
+    else if (wanted.time > flight.now)  // else they overlap already, and hit at once
+      growing.add(name, flight.off_contact(found.partner, found.time));
+    else
+      growing.add(name, found.time != flight.now);
+  }
+
+  void run_flights(const kernels::KernelTable& table) {
+    for (std::size_t n = 0; n <= 17; ++n)
+      for (std::uint64_t which = 0; which < 12; ++which) {
+        const std::string name = fmt::format("{} neighbours, draw {}", n, which);
+        add_exact(name, FlightCase(n, which, 0.0, 1.0), table);
+        for (const double growth : {1e-3, 0.1, 0.5})
+          for (const double speed : {0.02, 1.0})
+            add_growing(fmt::format("{}, growth {}, speed {}", name, growth, speed), FlightCase(n, which, growth, speed), table);
+      }
+  }
+
+  // Just before and after a collision, which leaves gaps of a few roundings of either sign.
+  void run_contacts(const kernels::KernelTable& table) {
+    for (const std::size_t n : {1U, 8U, 9U})
+      for (const double gap : {0.0, 1e-16, 4e-16, -4e-16, 1e-12, -1e-12, 1e-6})
+        for (const double parting : {-1.0, -1e-3, 1e-3, 1.0})
+          for (const double growth : {0.0, 1e-3, 0.1}) {
+            FlightCase flight(n, 20, growth, 0.01);
+            flight.place_near_contact(flight.neighbours[n - 1], gap, parting);
+            const std::string name = fmt::format("{} neighbours, gap {}, parting {}, growth {}", n, gap, parting, growth);
+            growth > 0.0 ? add_growing(name, flight, table) : add_exact(name, flight, table);
+          }
+  }
+
+  // Random updates, a fifth of them to times that are there already or to infinity, against the first of the smallest.
+  void run_calendar(std::size_t events, const kernels::KernelTable& table) {
+    const CounterRandom random(6, RandomStream::displacements);
+    EventCalendar tested(events, table);
+    std::vector<double> times(events, infinity);
+    const std::string name = fmt::format("{} events", events);
+    const auto wrong = [&] {
+      const auto first = static_cast<std::size_t>(std::min_element(times.begin(), times.end()) - times.begin());
+      return (tested.first() != first) + !same_bits(tested.first_time(), times[first]);
+    };
+    double count = 0.0;
+    const auto draw = [&](std::uint32_t step) {
+      const double time = random.uniform(events, step, 0);
+      return random.below(5, events, step, 1) > 0 ? time : time < 0.2 ? infinity : std::floor(10.0 * time) / 10.0;
+    };
+    for (std::uint32_t k = 0; k < events; ++k) times[k] = draw(k);
+    tested.assign(times);
+    count += wrong();
+    for (std::uint32_t k = 0; k < 2000; ++k) {
+      // As in a run the first one is replaced most of the time, and by something later.
+      const auto step = static_cast<std::uint32_t>(events) + k;
+      const bool first = random.below(3, events, step, 2) > 0;
+      const std::size_t event = first ? tested.first() : random.below(static_cast<std::uint32_t>(events), events, step, 3);
+      if (event >= events) break;  // counted as wrong before
+      times[event] = draw(step) + (first ? 1e-3 * k : 0.0);
+      tested.update(event, times[event]);
+      count += wrong();
+    }
+    calendar.add(name, count);
+  }
+};
+
+}  // namespace
+
+std::vector<Deviation> verify_hard_spheres(const kernels::KernelTable& table, const std::vector<HardSphereCase>& cases) {
+  AllPairsChecks all(table);
+  ListChecks list(table);
+  for (const auto& [name, configuration] : cases) {
+    const Prepared prepared(configuration);
+    all.run(name, prepared, table);
+    list.run(name, prepared, table);
+  }
+  AvoidanceChecks avoidance(table);
+  for (const std::size_t slots : {8U, 16U, 24U, 112U, 264U})
+    for (const std::size_t still : {1U, 2U, 5U, 1000U})
+      for (const bool forces : {true, false}) avoidance.run(slots, still, forces, table);
+  return {all.any.deviation,        all.within.deviation,      all.truncated.deviation,  all.gap.deviation,
+          list.any.deviation,       list.contacts.deviation,   list.forces[0].deviation, list.forces[1].deviation,
+          list.forces[2].deviation, avoidance.moved.deviation, avoidance.sum.deviation,  avoidance.trial.deviation};
+}
+
+std::vector<Deviation> verify_event_driven(const kernels::KernelTable& table) {
+  FlightChecks flight(table);
+  flight.run_flights(table);
+  flight.run_contacts(table);
+  for (const std::size_t events : {1U, 2U, 15U, 16U, 17U, 255U, 256U, 257U, 4097U}) flight.run_calendar(events, table);
+  return {flight.exact.deviation, flight.growing.deviation, flight.calendar.deviation};
+}
+
+}  // namespace lanescape
