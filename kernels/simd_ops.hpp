@@ -317,7 +317,8 @@ inline double largest_lane(Vector v) noexcept {
   return greatest;
 #endif
 }
-inline double smallest_lane(Vector v) noexcept { return -largest_lane(broadcast(0.0) - v); }
+// Taken from zero and not negated, so that zero stays +0.
+inline double smallest_lane(Vector v) noexcept { return 0.0 - largest_lane(broadcast(0.0) - v); }
 
 // The magnitude of a with the sign of s.
 inline Vector with_sign_of(Vector a, Vector s) noexcept {

@@ -36,21 +36,24 @@ CollisionEvent sphere_first_collision(const CollisionQuery& query) noexcept {
     const Vector c = ((dx * dx + dy * dy) + dz * dz) - s * s;
     const Vector w2 = ((wx * wx + wy * wy) + wz * wz) - a * a;
     const Vector discriminant = b * b - w2 * c;
-    // Those hit that approach, and those whose surfaces grow faster than their centres part (w2 < 0).
+    // Those hit that approach, and those whose surfaces grow faster than their centres part (w2 < 0), unless there is no root;
+    // spheres that overlap and approach hit now whatever the root.
+    const Mask approaching = less(b, zero), missing = excluding(less(discriminant, zero), both(approaching, less(c, zero)));
     const Mask there = lanes_below(static_cast<std::ptrdiff_t>(query.count) - static_cast<std::ptrdiff_t>(k));
-    Mask hits = both(either(less(b, zero), less(w2, zero)), excluding(there, less(discriminant, zero)));
+    Mask hits = both(either(approaching, less(w2, zero)), excluding(there, missing));
     if (!any(hits)) continue;
-    const Vector wait = maximum(c / (square_root(maximum(discriminant, zero)) - b), zero);
+    // What parts at first is caught up with at the larger root, whose usual form loses no digits.
+    const Vector root = square_root(maximum(discriminant, zero));
+    const Vector wait = maximum(choose(approaching, c, b + root) / choose(approaching, root - b, zero - w2), zero);
     hits = both(hits, less(wait, earliest));
     earliest = choose(hits, wait, earliest);
     place = choose(hits, count_from(static_cast<double>(k)), place);
   }
   const double wait = smallest_lane(earliest);
   if (!(wait < __builtin_inf())) return {__builtin_inf(), -1};
-  alignas(64) double places[lanes];
-  store(places, place);
-  const auto lane = static_cast<std::size_t>(__builtin_ctz(bits(equal(earliest, broadcast(wait)))));
-  return {query.now + wait, query.neighbours[static_cast<std::size_t>(places[lane])]};
+  // Of several at one time the first in the list, whatever the number of lanes.
+  const double first = smallest_lane(choose(equal(earliest, broadcast(wait)), place, broadcast(__builtin_inf())));
+  return {query.now + wait, query.neighbours[static_cast<std::size_t>(first)]};
 }
 
 void calendar_update(const CalendarView& calendar, std::size_t event, double time) noexcept {

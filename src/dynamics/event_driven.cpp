@@ -125,20 +125,23 @@ double EventDriven::compressibility(double virial_before, double time_before) co
   return 1.0 + (virial_ - virial_before) / (3.0 * n * temperature * (time() - time_before));
 }
 
-void EventDriven::positions(double time, std::vector<double>& out) const {
+void EventDriven::positions_at(double now, std::vector<double>& out) const {
   out.resize(3 * size());
   for (std::size_t i = 0; i < size(); ++i) {
     const auto& s = spheres_[i];
-    const double flown = time - time_base_ - s.time;
+    const double flown = now - s.time;
     out[3 * i] = s.x + s.vx * flown + images_[i][0] * box_.length[0];
     out[3 * i + 1] = s.y + s.vy * flown + images_[i][1] * box_.length[1];
     out[3 * i + 2] = s.z + s.vz * flown + images_[i][2] * box_.length[2];
   }
 }
 
+void EventDriven::positions(double time, std::vector<double>& out) const { positions_at(time - time_base_, out); }
+
+// Not by way of time(), whose digits would part spheres in contact from where they are.
 std::vector<double> EventDriven::positions() const {
   std::vector<double> out;
-  positions(time(), out);
+  positions_at(now_, out);
   return out;
 }
 
@@ -358,7 +361,7 @@ bool EventDriven::next_event() {
   bounce(i, j);
   calendar_.update(i, predict(i));
   calendar_.update(j, predict(j));
-  if (collisions_ % resync_interval == 0) resynchronise();
+  if (collisions_ % resync_interval() == 0) resynchronise();
   return true;
 }
 

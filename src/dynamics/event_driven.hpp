@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -19,13 +20,11 @@ namespace lanescape {
 // search. Time in sigma sqrt(m / k_B T).
 //
 // A particle's list holds every other one that it can touch before either leaves a sphere of radius shell() around the place
-// its list was made at; leaving is an event. Every resync_interval collisions, at counts that depend on nothing else, all
+// its list was made at; leaving is an event. Every resync_interval() collisions, at counts that depend on nothing else, all
 // particles are brought to one time, which becomes zero again, and lists and calendar are made anew: rounding then never
 // grows with time, and a state between two collisions at such a count is positions, velocities and counters alone.
 class EventDriven {
  public:
-  static constexpr std::uint64_t resync_interval = 100'000;
-
   // At rest. `masses` per particle. `growth`: every radius is radius (1 + growth t). Throws Error(bad_input) where spheres
   // overlap or the box is shorter than 2.05 of the largest diameter, where a particle would meet two images of another.
   EventDriven(const Configuration& start, std::vector<double> masses, const kernels::KernelTable& table, double growth = 0.0);
@@ -44,6 +43,9 @@ class EventDriven {
   // Everything to one time, lists and calendar anew. The counts at which this happens influence the bits of what follows.
   void resynchronise();
 
+  // 256 per particle, at most 100,000: long before a time has lost four digits, and seldom enough to cost little.
+  std::uint64_t resync_interval() const { return std::min<std::uint64_t>(100'000, 256 * size()); }
+
   std::size_t size() const { return spheres_.size(); }
   const Box& box() const { return box_; }
   std::uint64_t collisions() const { return collisions_; }
@@ -58,13 +60,13 @@ class EventDriven {
   double compressibility(double virial_before = 0.0, double time_before = 0.0) const;
   double radius(std::size_t particle) const { return spheres_[particle].radius * (1.0 + growth_ * now_); }
 
-  // Unwrapped positions at `time`, from the last event to the next one, 3N in the user's order.
+  // Unwrapped positions at `time`, from the last event to the next one, or at the last event, 3N in the user's order.
   void positions(double time, std::vector<double>& out) const;
   std::vector<double> positions() const;
   std::vector<double> velocities() const;
   Configuration configuration() const;
 
-  // Only right after resynchronise(), or at a multiple of resync_interval collisions, does a state that is read go on with the
+  // Only right after resynchronise(), or at a multiple of resync_interval() collisions, does a state that is read go on with the
   // same bits as the one that was written.
   bool at_resync() const { return fresh_; }
   void exchange(Archive& archive);
@@ -86,6 +88,7 @@ class EventDriven {
   void choose_shell();
   void make_lists();
   void make_calendar();
+  void positions_at(double now, std::vector<double>& out) const;
   double swell() const { return 1.0 + growth_ * now_; }
   void bring_to_now(std::size_t i);
   std::int32_t* list(std::size_t i) { return lists_.data() + i * list_capacity_; }

@@ -43,7 +43,14 @@ const std::vector<kernels::SpherePair>& HardSphereOverlap::pairs_within(const Al
   return pairs_;
 }
 
-HardSphereList::HardSphereList(HardSphereOverlap& spheres, double skin) : spheres_(&spheres), skin_(skin) {}
+HardSphereList::HardSphereList(HardSphereOverlap& spheres, double skin) : spheres_(&spheres) {
+  // Of each pair the list knows one image. Another one is at least half a box away when the list is made and comes nearer by less
+  // than the skin: it must not reach contact before the list is made anew.
+  double largest = 0.0;
+  for (const double radius : spheres.radii())
+    if (radius > largest) largest = radius;
+  skin_ = std::max(0.0, std::min(skin, 0.5 * spheres.box().shortest() - 2.0 * largest));
+}
 
 void HardSphereList::renew_where_due(const AlignedArray& positions) {
   const std::size_t slots = positions.size() / 3;

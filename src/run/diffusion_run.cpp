@@ -30,7 +30,7 @@ class HardSource {
   // One unit of equilibration; the part that is done.
   double equilibrate() {
     const std::uint64_t wanted = options_->equilibration_collisions;
-    const std::uint64_t until = std::min(wanted, dynamics_.collisions() + EventDriven::resync_interval);
+    const std::uint64_t until = std::min(wanted, dynamics_.collisions() + 100'000);
     while (dynamics_.collisions() < until) dynamics_.collide();
     return wanted == 0 ? 1.0 : static_cast<double>(dynamics_.collisions()) / static_cast<double>(wanted);
   }

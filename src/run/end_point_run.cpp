@@ -14,7 +14,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t trace_rows = 4096, trace_columns = 6, hard_trace_columns = 5, rdf_bins = 200;
-constexpr std::uint64_t resyncs_per_checkpoint = 20;  // about 1 s
+constexpr std::uint64_t resyncs_per_checkpoint = 50;  // about 1 s, large systems some
 constexpr std::uint64_t rdf_interval = 1000;          // [steps]
 
 // Steps between looks at the clock and the outside world, and between checkpoints: about 10 ms and 1 s on one core.
@@ -158,8 +158,8 @@ void report(const HardEndPointGenerator& generator, const HardEndPointOptions& o
 // At every resynchronisation: what happened since the last.
 void trace_interval(HardEndPointState& state) {
   const EventDriven& dynamics = state.generator.dynamics();
-  const std::uint64_t interval = dynamics.collisions() / EventDriven::resync_interval;
-  const double rate = 2.0 * static_cast<double>(EventDriven::resync_interval) / static_cast<double>(dynamics.size()) /
+  const std::uint64_t interval = dynamics.collisions() / dynamics.resync_interval();
+  const double rate = 2.0 * static_cast<double>(dynamics.resync_interval()) / static_cast<double>(dynamics.size()) /
                       (dynamics.time() - state.time);
   if (state.trace.wants(interval))
     state.trace.add({static_cast<double>(dynamics.collisions()), dynamics.time(),
@@ -201,7 +201,7 @@ EndPointRunResult run_hard_end_points(const HardSphereModel& model, const Config
     // Only a resynchronised state goes on with the same bits; one comes every few hundredths of a second.
     if (!dynamics.at_resync()) continue;
     interrupted = !state.generator.ended() && monitor.stop_requested();
-    const bool due = dynamics.collisions() % (resyncs_per_checkpoint * EventDriven::resync_interval) == 0;
+    const bool due = dynamics.collisions() % (resyncs_per_checkpoint * dynamics.resync_interval()) == 0;
     if (checkpoint.enabled() && (due || interrupted)) save_checkpoint(file, state);
   }
 

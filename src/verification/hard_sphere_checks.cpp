@@ -276,7 +276,7 @@ struct FlightCase {
         box{5.0, 6.0, 4.5} {
     const CounterRandom random(5, RandomStream::displacements);
     for (std::uint32_t i = 0; i < neighbours_wanted + 5; ++i) {
-      const auto draw = [&, k = 0U]() mutable { return random.uniform(which, i, k++); };
+      auto draw = [&, k = 0U]() mutable { return random.uniform(which, i, k++); };
       kernels::FlyingSphere s{};
       s.radius = 0.4 + 0.2 * draw();
       s.time = 1.5 * draw();
@@ -290,7 +290,7 @@ struct FlightCase {
       spheres.push_back(s);
     }
     // The neighbours of sphere 2 in an order of their own; what follows them is padding.
-    for (std::size_t k = 0; k < count; ++k) neighbours[k] = static_cast<std::int32_t>(3 + (7 * k) % count);
+    for (std::size_t k = 0; k < count; ++k) neighbours[k] = static_cast<std::int32_t>(3 + (count + 4 - k) % count);
   }
 
   // Puts a sphere at the distance s(now) + gap of sphere 2, moving off (or on, where negative) at the rate `parting` relative to
@@ -391,6 +391,21 @@ struct FlightChecks {
           }
   }
 
+  // Several hit at the same time: the one that is first in the list is it.
+  void run_ties(const kernels::KernelTable& table) {
+    for (std::size_t n = 2; n <= 17; ++n)
+      for (std::size_t first = 0; first < n; ++first) {
+        FlightCase flight(n, 30, 0.0, 0.01);
+        flight.place_near_contact(flight.neighbours[first], 0.25, -100.0);
+        for (std::size_t k = first + 3; k < n; k += 3)
+          flight.spheres[static_cast<std::size_t>(flight.neighbours[k])] =
+              flight.spheres[static_cast<std::size_t>(flight.neighbours[first])];
+        const std::string name = fmt::format("{} neighbours, every third hits from {} on", n, first);
+        if (flight.expected().partner != flight.neighbours[first]) exact.add(name + ": no such case", infinity);
+        add_exact(name, flight, table);
+      }
+  }
+
   // Random updates, a fifth of them to times that are there already or to infinity, against the first of the smallest.
   void run_calendar(std::size_t events, const kernels::KernelTable& table) {
     const CounterRandom random(6, RandomStream::displacements);
@@ -446,6 +461,7 @@ std::vector<Deviation> verify_event_driven(const kernels::KernelTable& table) {
   FlightChecks flight(table);
   flight.run_flights(table);
   flight.run_contacts(table);
+  flight.run_ties(table);
   for (const std::size_t events : {1U, 2U, 15U, 16U, 17U, 255U, 256U, 257U, 4097U}) flight.run_calendar(events, table);
   return {flight.exact.deviation, flight.growing.deviation, flight.calendar.deviation};
 }

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "kernel_table.hpp"
+#include "verification/hard_sphere_cases.hpp"
+#include "verification/kernel_checks.hpp"
+
+namespace lanescape {
+
+namespace tolerance {
+
+// As in kernel_checks.hpp, four to five times the worst deviation measured over hard_sphere_cases() and the checks' own inputs.
+
+// Fictitious forces, per particle and relative to the sum over its contacts of the largest force that the potential has, s or
+// s^2: near contact the kernel's s - r and the reference's s (1 - r/s) are each the difference of like numbers, exact to a
+// rounding of s; the direction has a rounding of r and one of its quotient, and each sum one more (measured 4.0e-16).
+inline constexpr double contact_force = 2e-15;
+
+// Avoidance trials, relative to |position| + step; sums of unit forces, relative to the sum of the absolute terms. The
+// expected values are in long double; the norm of all forces, a sum over 3N squares, loses most (measured 2.8e-16).
+inline constexpr double avoidance = 1.4e-15;
+
+// Collisions of growing spheres: how far from contact the pair is at the time found, relative to s, the coordinates and the
+// distance flown. Times are not compared: kernel and reference round the growth differently, and the time of a grazing
+// collision is as uncertain as the square root of that (measured 4.6e-17).
+inline constexpr double growing_contact = 2.3e-16;
+
+}  // namespace tolerance
+
+// Overlaps, lists, fictitious forces and avoidance trials of a table against the scalar reference.
+std::vector<Deviation> verify_hard_spheres(const kernels::KernelTable& table, const std::vector<HardSphereCase>& cases);
+// First collisions against the reference, the calendar against std::min_element.
+std::vector<Deviation> verify_event_driven(const kernels::KernelTable& table);
+
+}  // namespace lanescape

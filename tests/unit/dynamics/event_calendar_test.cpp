@@ -1,0 +1,73 @@
+#include "dynamics/event_calendar.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "dispatch/isa.hpp"
+
+namespace lanescape {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+const kernels::KernelTable& best_table() { return kernel_table(available_isas().back()); }
+
+TEST(EventCalendar, KnowsTheEarliestOfTimesSetAtOnce) {
+  EventCalendar calendar(40, best_table());
+  std::vector<double> times(40, 5.0);
+  times[33] = 2.0;
+  calendar.assign(times);
+  EXPECT_EQ(calendar.first(), 33U);
+  EXPECT_EQ(calendar.first_time(), 2.0);
+}
+
+TEST(EventCalendar, FollowsTheEarliestAsItIsPutOff) {
+  EventCalendar calendar(300, best_table());
+  std::vector<double> times(300);
+  for (std::size_t i = 0; i < 300; ++i) times[i] = static_cast<double>((i * 7) % 300);  // each number once
+  calendar.assign(times);
+  for (int expected = 0; expected < 300; ++expected) {
+    ASSERT_EQ(calendar.first_time(), expected);
+    ASSERT_EQ(calendar.first() * 7 % 300, static_cast<std::size_t>(expected));
+    calendar.update(calendar.first(), never);
+  }
+  EXPECT_EQ(calendar.first_time(), never);
+}
+
+TEST(EventCalendar, GivesTiesToTheLowestNumberWhateverTheOrderOfUpdates) {
+  for (const bool rising : {true, false}) {
+    EventCalendar calendar(600, best_table());
+    for (std::size_t k = 0; k < 600; ++k) calendar.update(rising ? k : 599 - k, 1.0);
+    EXPECT_EQ(calendar.first(), 0U);
+    calendar.update(0, 2.0);
+    EXPECT_EQ(calendar.first(), 1U);
+    for (std::size_t k = 1; k < 20; ++k) calendar.update(k, 2.0);
+    EXPECT_EQ(calendar.first(), 20U);
+    calendar.update(16, 1.0);
+    EXPECT_EQ(calendar.first(), 16U);
+    EXPECT_EQ(calendar.first_time(), 1.0);
+  }
+}
+
+TEST(EventCalendar, HoldsASingleEvent) {
+  EventCalendar calendar(1, best_table());
+  calendar.update(0, 3.0);
+  EXPECT_EQ(calendar.first(), 0U);
+  EXPECT_EQ(calendar.first_time(), 3.0);
+}
+
+TEST(EventCalendar, TakesItsEventsAlongWhenMoved) {
+  EventCalendar calendar(20, best_table());
+  calendar.update(17, 1.0);
+  EventCalendar moved = std::move(calendar);
+  moved.update(18, 0.5);
+  EXPECT_EQ(moved.first(), 18U);
+  moved.update(18, 2.0);
+  EXPECT_EQ(moved.first(), 17U);
+}
+
+}  // namespace
+}  // namespace lanescape
