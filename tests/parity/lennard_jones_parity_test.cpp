@@ -56,7 +56,7 @@ TEST_P(LennardJonesParity, KernelsAgreeWithTheReferenceOnEveryCase) {
 }
 
 TEST_P(LennardJonesParity, WorstDeviationsAreWithinTheDeclaredTolerances) {
-  for (const Deviation& deviation : verify_kernels(GetParam(), every_case())) {
+  for (const Deviation& deviation : verify_lennard_jones(kernel_table(GetParam()), every_case())) {
     RecordProperty(deviation.kernel, describe(deviation));
     EXPECT_TRUE(deviation.passed()) << describe(deviation);
   }
@@ -69,7 +69,7 @@ TEST_P(LennardJonesParity, AForcedInstructionSetIsTheOneThatRuns) {
   EXPECT_EQ(forced.name, name);
   const std::size_t lanes = GetParam() == Isa::avx512 ? 8 : GetParam() == Isa::sse2 ? 2 : 4;
   EXPECT_EQ(forced.lanes, lanes);
-  for (const Deviation& deviation : verify_kernels(choose_isa(name), {every_case().front()})) EXPECT_EQ(deviation.isa, name);
+  for (const Deviation& deviation : verify_lennard_jones(forced, {every_case().front()})) EXPECT_EQ(deviation.isa, name);
   // Code of its own, not that of another instruction set under its name.
   for (const Isa isa : available_isas())
     if (isa != GetParam()) {

@@ -75,6 +75,21 @@ kernels::DisplacementMoments wrong_fourth(const double* a, const double* b, std:
   return moments;
 }
 
+double wrong_largest(const double* a, const double* b, std::size_t slots) noexcept {
+  return right->largest_displacement_squared(a, b, slots) * (1.0 - 1e-15);
+}
+double largest_second(const double* a, const double* b, std::size_t slots) noexcept {
+  std::vector<double> largest(slots);
+  for (std::size_t i = 0; i < slots; ++i)
+    for (std::size_t axis = 0; axis < 3; ++axis) largest[i] += std::pow(b[axis * slots + i] - a[axis * slots + i], 2);
+  if (slots > 0) *std::max_element(largest.begin(), largest.end()) = 0.0;
+  return slots > 0 ? *std::max_element(largest.begin(), largest.end()) : 0.0;
+}
+void wrong_lengths(double* lengths, const double* a, const double* b, std::size_t slots) noexcept {
+  if (slots > 0) lengths[slots - 1] = 0.0;
+  right->add_particle_lengths(lengths, a, b, slots);
+}
+
 std::vector<std::string> failed_checks(const KernelTable& table) {
   std::vector<std::string> failed;
   for (const Deviation& deviation : verify_vector_algebra(table))
@@ -99,6 +114,9 @@ TEST(VectorAlgebraChecks, FailForTheKernelThatIsWrongAndForNoOther) {
   EXPECT_EQ(failed_with(&KernelTable::axpy, wrong_axpy), Names{"axpy"});
   EXPECT_EQ(failed_with(&KernelTable::displacement_moments, wrong_second), Names{"displacement_moments second"});
   EXPECT_EQ(failed_with(&KernelTable::displacement_moments, wrong_fourth), Names{"displacement_moments fourth"});
+  EXPECT_EQ(failed_with(&KernelTable::largest_displacement_squared, wrong_largest), Names{"largest_displacement_squared"});
+  EXPECT_EQ(failed_with(&KernelTable::largest_displacement_squared, largest_second), Names{"largest_displacement_squared"});
+  EXPECT_EQ(failed_with(&KernelTable::add_particle_lengths, wrong_lengths), Names{"add_particle_lengths"});
 }
 
 }  // namespace
