@@ -36,15 +36,11 @@ CollisionEvent sphere_first_collision(const CollisionQuery& query) noexcept {
     const Vector c = ((dx * dx + dy * dy) + dz * dz) - s * s;
     const Vector w2 = ((wx * wx + wy * wy) + wz * wz) - a * a;
     const Vector discriminant = b * b - w2 * c;
-    // Those hit that approach, and those whose surfaces grow faster than their centres part (w2 < 0), unless there is no root;
-    // spheres that overlap and approach hit now whatever the root.
-    const Mask approaching = less(b, zero), missing = excluding(less(discriminant, zero), both(approaching, less(c, zero)));
+    // Those hit that approach, and those whose surfaces grow faster than their centres part (w2 < 0).
     const Mask there = lanes_below(static_cast<std::ptrdiff_t>(query.count) - static_cast<std::ptrdiff_t>(k));
-    Mask hits = both(either(approaching, less(w2, zero)), excluding(there, missing));
+    Mask hits = both(either(less(b, zero), less(w2, zero)), excluding(there, less(discriminant, zero)));
     if (!any(hits)) continue;
-    // What parts at first is caught up with at the larger root, whose usual form loses no digits.
-    const Vector root = square_root(maximum(discriminant, zero));
-    const Vector wait = maximum(choose(approaching, c, b + root) / choose(approaching, root - b, zero - w2), zero);
+    const Vector wait = maximum(c / (square_root(maximum(discriminant, zero)) - b), zero);
     hits = both(hits, less(wait, earliest));
     earliest = choose(hits, wait, earliest);
     place = choose(hits, count_from(static_cast<double>(k)), place);

@@ -139,8 +139,8 @@ void add_touching_pairs(std::vector<HardSphereCase>& cases) {
   cases.push_back({"row of touching spheres around the box", row});
 }
 
-// Spheres anywhere, each with a partner whose distance from contact is 1e-2 to 1e-16 of it, on either side: what a filter in
-// lower precision must not lose.
+// Spheres anywhere, each with a partner whose distance from contact is 1e-2 to 1e-16 of it, on either side, or no more than
+// rounding: what a filter in lower precision must not lose, and what one fused operation would decide otherwise.
 Configuration near_contact(std::size_t n, const Box& box, Sizes sizes) {
   const CounterRandom random(seed, RandomStream::displacements);
   Configuration configuration{box, {}, {}, {}};
@@ -154,7 +154,8 @@ Configuration near_contact(std::size_t n, const Box& box, Sizes sizes) {
     add_sphere(configuration, sizes, p = {});
     const double z = 2.0 * random.uniform(4, i, 0) - 1.0, phi = 6.283185307179586 * random.uniform(4, i, 1);
     const Point direction = {std::sqrt(1.0 - z * z) * std::cos(phi), std::sqrt(1.0 - z * z) * std::sin(phi), z};
-    const double off = std::pow(10.0, -2.0 - 14.0 * random.uniform(4, i, 2)) * (i % 4 == 1 ? 1.0 : -1.0);
+    const double least = i % 8 < 4 ? -2.0 : -15.5;
+    const double off = std::pow(10.0, least - (16.0 + least) * random.uniform(4, i, 2)) * (i % 4 == 1 ? 1.0 : -1.0);
     const double r = (configuration.radii[i] + configuration.radii[i - 1]) * (1.0 + off);
     for (std::size_t axis = 0; axis < 3; ++axis)
       configuration.positions[3 * i + axis] = configuration.positions[3 * (i - 1) + axis] + r * direction[axis];
@@ -167,7 +168,7 @@ void add_boxes(std::vector<HardSphereCase>& cases) {
     const double twice = sizes == Sizes::equal ? 2.0 : 2.8;
     for (const auto& [shape, box] : {std::pair{"cube of 1000", cube(1000.0)}, std::pair{"cube of 12", cube(12.0)},
                                      std::pair{"box of 1000", Box{{1000.0, 700.0, 3.0}}}}) {
-      Configuration configuration = near_contact(120, box, sizes);
+      Configuration configuration = near_contact(256, box, sizes);
       cases.push_back({fmt::format("{} near contact, {}", to_string(sizes), shape), configuration});
       unwrap(configuration, 1'000'000);
       cases.push_back({fmt::format("{} near contact, {}, a million boxes away", to_string(sizes), shape), configuration});

@@ -26,6 +26,11 @@ def load(folder, name):
     return json.loads((folder / f"{name}.json").read_text())
 
 
+def there(folder, name):
+    """A sweep that was stopped leaves rows out."""
+    return (folder / f"{name}.json").exists()
+
+
 def cell(values, form):
     mean = statistics.mean(values)
     if len(values) < 2:
@@ -39,8 +44,8 @@ def source_ratio(phi):
 
 
 def source_diffusion_big(phi):
-    """Vogel-Fulcher-Tammann fit of the source's figure 4.21."""
-    return math.exp(-0.159643 / (0.6122 - phi) - 2.836295)
+    """Vogel-Fulcher-Tammann fit of the source's figure 4.21, 0.50 and above."""
+    return math.exp(-0.159643 / (0.6122 - phi) - 2.836295) if phi >= 0.50 else None
 
 
 def bmcsl(phi):
@@ -79,6 +84,8 @@ def paths_table(folder, kind):
     print(f"### Paths, {kind} (N = 108, ΔR = 108, {PAIRS} pairs)\n")
     header("φ", "(ΔR/g)²", "source's fit", "n/N", "direct, 10³", "avoidance, 10³", "source, 10³", "s per path")
     for phi in PATHS[kind]:
+        if not there(folder, f"paths-{kind}-{phi}-harmonic"):
+            continue
         ratio, share, direct, avoidance, seconds = path_row(reached(folder, f"paths-{kind}-{phi}-harmonic"))
         source = source_ratio(float(phi)) if kind == "binary" else None
         steps = SOURCE_STEPS.get(phi) if kind == "binary" else None
@@ -91,6 +98,8 @@ def potentials_table(folder):
     header("φ", "potential", "(ΔR/g)²", "n/N", "direct, 10³", "avoidance, 10³", "s per path")
     for phi in POTENTIALS:
         for potential in ("harmonic", "cubic", "linear"):
+            if not there(folder, f"paths-binary-{phi}-{potential}"):
+                continue
             row(phi, potential, *path_row(reached(folder, f"paths-binary-{phi}-{potential}")))
     print()
 
@@ -99,6 +108,8 @@ def overlap_statistics_table(folder):
     print("### Overlaps along a path, binary: means over steps\n")
     header("φ", "partners v", "moved c/N", "groups m/N", "trials per avoidance step")
     for phi in PATHS["binary"]:
+        if not there(folder, f"paths-binary-{phi}-harmonic"):
+            continue
         paths = reached(folder, f"paths-binary-{phi}-harmonic")
         means = [p["mean_over_steps"] for p in paths]
         trials = [sum((k + 1) * n for k, n in enumerate(p["corrections"])) / max(1, sum(p["corrections"])) for p in paths]
@@ -121,6 +132,8 @@ def diffusion_table(folder, kind):
     reference = "source's fit, large" if kind == "binary" else "infinite system"
     header("φ", *[f"{names[s]}, {how}" for s in species for how in ("VACF", "MSD")], reference, "Z", "BMCSL" if kind == "binary" else "Carnahan-Starling")
     for phi in DIFFUSION[kind]:
+        if not there(folder, f"diffusion-{kind}-{phi}"):
+            continue
         result = load(folder, f"diffusion-{kind}-{phi}")
         cells = [with_error(result["species"][s], f"diffusion_{how}", scale) for s in species for how in ("vacf", "msd")]
         expected = source_diffusion_big(float(phi)) if kind == "binary" else INFINITE.get(phi)
