@@ -31,7 +31,7 @@ def draw(axes, folder, kind):
               for phi in PATHS[kind] if (folder / f"paths-{kind}-{phi}-harmonic.json").exists()}
     for species, label, colour in SPECIES[kind]:
         points = series(folder, kind, species)
-        axes.errorbar(points, [d for d, _ in points.values()], [e for _, e in points.values()], fmt="o", color=colour, label=f"molecular dynamics, {label}")
+        axes.errorbar(list(points), [d for d, _ in points.values()], [e for _, e in points.values()], fmt="o", color=colour, label=f"molecular dynamics, {label}")
         common = [phi for phi in ratios if phi in points]
         # The source's scaling: the mean of D / (DeltaR/g)^2 over the state points.
         scale = statistics.mean(points[phi][0] / ratios[phi] for phi in common)
