@@ -25,8 +25,9 @@ namespace lanescape {
 // grows with time, and a state between two collisions at such a count is positions, velocities and counters alone.
 class EventDriven {
  public:
-  // At rest. `masses` per particle. `growth`: every radius is radius (1 + growth t). Throws Error(bad_input) where spheres
-  // overlap or the box is shorter than 2.05 of the largest diameter, where a particle would meet two images of another.
+  // At rest. `masses` per particle. `growth`: diameters grow by this share of themselves per unit of time, of what they were at the
+  // last resynchronisation. Spheres must not overlap; throws Error(bad_input) where the box is shorter than 2.05 of the largest
+  // diameter, where a particle would meet two images of another.
   EventDriven(const Configuration& start, std::vector<double> masses, const kernels::KernelTable& table, double growth = 0.0);
 
   // Maxwell's distribution, total momentum removed, then sum m v^2 / 2 = (3/2) N T with T = 1, the source's convention.
