@@ -22,6 +22,13 @@ bool Mixture::has_equal_masses() const {
   return std::all_of(species.begin(), species.end(), [&](const Species& s) { return s.mass == species.front().mass; });
 }
 
+std::vector<double> Mixture::masses_of(const std::vector<int>& species_of_particles) const {
+  std::vector<double> masses;
+  masses.reserve(species_of_particles.size());
+  for (const int s : species_of_particles) masses.push_back(species[static_cast<std::size_t>(s)].mass);
+  return masses;
+}
+
 void Mixture::check_species() const {
   if (species.empty()) throw_bad_input(fmt::format("model {} has no species", name));
   for (const Species& s : species) {

@@ -166,18 +166,29 @@ void EventDriven::bring_to_now(std::size_t i) {
   s.time = now_;
 }
 
+// Into the box, 0 <= x < L: done twice it changes nothing.
+void EventDriven::wrap(std::size_t i) {
+  double* const position = &spheres_[i].x;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double &x = position[axis], &image = images_[i][axis];
+    const double length = box_.length[axis];
+    if (x >= 0.0 && x < length) continue;
+    const double boxes = std::floor(x / length);
+    x -= boxes * length;
+    image += boxes;
+    if (x < length) continue;
+    // A little below zero is rounded to the far face.
+    x = 0.0;
+    image += 1.0;
+  }
+}
+
 void EventDriven::resynchronise() {
   for (std::size_t i = 0; i < size(); ++i) {
     bring_to_now(i);
-    auto& s = spheres_[i];
-    double* const x = &s.x;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double boxes = std::floor(x[axis] / box_.length[axis]);
-      x[axis] -= boxes * box_.length[axis];
-      images_[i][axis] += boxes;
-    }
-    s.time = 0.0;
-    s.radius *= swell();
+    wrap(i);
+    spheres_[i].time = 0.0;
+    spheres_[i].radius *= swell();
   }
   largest_radius_ *= swell();
   time_base_ += now_;
@@ -258,15 +269,8 @@ void EventDriven::remove(std::size_t i, std::int32_t neighbour) {
 // Particle i has left its shell: a new list around where it is, and its place in the lists of others.
 void EventDriven::renew_list(std::size_t i) {
   bring_to_now(i);
-  auto& s = spheres_[i];
-  double* const x = &s.x;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (x[axis] >= 0.0 && x[axis] < box_.length[axis]) continue;
-    const double boxes = std::floor(x[axis] / box_.length[axis]);
-    x[axis] -= boxes * box_.length[axis];
-    images_[i][axis] += boxes;
-  }
-  references_[i] = {s.x, s.y, s.z};
+  wrap(i);
+  references_[i] = {spheres_[i].x, spheres_[i].y, spheres_[i].z};
   const auto self = static_cast<std::int32_t>(i);
   grid_.move(self, references_[i]);
   for (std::int32_t k = 0; k < list_sizes_[i]; ++k) remove(static_cast<std::size_t>(list(i)[k]), self);

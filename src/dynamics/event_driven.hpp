@@ -92,6 +92,7 @@ class EventDriven {
   void positions_at(double now, std::vector<double>& out) const;
   double swell() const { return 1.0 + growth_ * now_; }
   void bring_to_now(std::size_t i);
+  void wrap(std::size_t i);
   std::int32_t* list(std::size_t i) { return lists_.data() + i * list_capacity_; }
   template <class Visit>
   void for_each_neighbour(std::size_t i, Visit visit);

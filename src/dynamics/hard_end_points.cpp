@@ -7,16 +7,6 @@
 #include "core/error.hpp"
 
 namespace lanescape {
-namespace {
-
-std::vector<double> masses_of(const HardSphereModel& model, const std::vector<int>& species) {
-  std::vector<double> masses;
-  for (const int s : species) masses.push_back(model.species[static_cast<std::size_t>(s)].mass);
-  return masses;
-}
-
-}  // namespace
-
 void HardEndPointOptions::make_quick() {
   equilibration_collisions = 200'000;
   between_collisions = 20'000;
@@ -34,7 +24,7 @@ HardEndPointGenerator::HardEndPointGenerator(const HardSphereModel& model, const
                                              const HardEndPointOptions& options, Isa isa)
     : layout_(&layout),
       options_(options),
-      dynamics_(start, masses_of(model, start.species), kernel_table(isa)),
+      dynamics_(start, model.masses_of(start.species), kernel_table(isa)),
       spheres_(start.box, layout, start.radii, kernel_table(isa)) {
   options_.check();
   if (layout.size() < 2)

@@ -21,22 +21,25 @@ constexpr std::uint64_t records_per_report = 1000;
 // Hard spheres, brought to equilibrium and on from one trajectory to the next.
 class HardSource {
  public:
+  static constexpr std::uint64_t collisions_per_unit = 100'000;
+
   HardSource(const HardSphereModel& model, const ParticleLayout& layout, const Configuration& start,
              const DiffusionRunOptions& options, Isa isa)
-      : layout_(&layout), options_(&options), dynamics_(start, masses(model, start), kernel_table(isa)) {
+      : layout_(&layout), options_(&options), dynamics_(start, model.masses_of(start.species), kernel_table(isa)) {
     dynamics_.draw_velocities(options.seed);
   }
 
-  // One unit of equilibration; the part that is done.
+  // One unit of equilibration; the part that is done. Ends, as trajectories do, resynchronised: only such a state goes on with the
+  // same bits when it is read.
   double equilibrate() {
     const std::uint64_t wanted = options_->equilibration_collisions;
-    const std::uint64_t until = std::min(wanted, dynamics_.collisions() + 100'000);
+    const std::uint64_t until = std::min(wanted, dynamics_.collisions() + collisions_per_unit);
     while (dynamics_.collisions() < until) dynamics_.collide();
+    dynamics_.resynchronise();
     return wanted == 0 ? 1.0 : static_cast<double>(dynamics_.collisions()) / static_cast<double>(wanted);
   }
   bool failed() const { return false; }
   void begin_trajectory() {
-    dynamics_.resynchronise();
     begin_ = dynamics_.time();
     virial_begin_ = dynamics_.virial();
     recorded_ = 0;
@@ -65,12 +68,6 @@ class HardSource {
   }
 
  private:
-  static std::vector<double> masses(const HardSphereModel& model, const Configuration& start) {
-    std::vector<double> masses;
-    for (const int s : start.species) masses.push_back(model.species[static_cast<std::size_t>(s)].mass);
-    return masses;
-  }
-
   const ParticleLayout* layout_;
   const DiffusionRunOptions* options_;
   EventDriven dynamics_;

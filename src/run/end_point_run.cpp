@@ -159,8 +159,8 @@ void report(const HardEndPointGenerator& generator, const HardEndPointOptions& o
 void trace_interval(HardEndPointState& state) {
   const EventDriven& dynamics = state.generator.dynamics();
   const std::uint64_t interval = dynamics.collisions() / dynamics.resync_interval();
-  const double rate = 2.0 * static_cast<double>(dynamics.resync_interval()) / static_cast<double>(dynamics.size()) /
-                      (dynamics.time() - state.time);
+  const double rate =
+      2.0 * static_cast<double>(dynamics.resync_interval()) / static_cast<double>(dynamics.size()) / (dynamics.time() - state.time);
   if (state.trace.wants(interval))
     state.trace.add({static_cast<double>(dynamics.collisions()), dynamics.time(),
                      dynamics.compressibility(state.virial, state.time), rate, static_cast<double>(state.generator.phase())});

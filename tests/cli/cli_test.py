@@ -586,6 +586,36 @@ class HardSpheres(ProgramTest):
         self.assertEqual(without_seconds(resumed), without_seconds(one_object((whole / "result.json").read_text())))
         self.assertEqual(contents(out), contents(whole))
 
+    def assert_resumes_from_an_interruption(self, *arguments, after):
+        """Interrupted that many seconds after its folder is there, a run goes on to the bits of one left alone."""
+        whole, out = self.folder / "whole", self.folder / "cut"
+        self.done(*arguments, "--out", whole)
+        process = subprocess.Popen([PROGRAM, *map(str, arguments), "--out", str(out)], stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment())
+        while not (out / "run.toml").exists():
+            time.sleep(0.005)
+        time.sleep(after)
+        process.send_signal(signal.SIGTERM)
+        stdout, _ = process.communicate(timeout=30)
+        self.assertEqual((process.returncode, one_object(stdout)["outcome"]), (1, "interrupted"))
+        resumed = self.done(arguments[0], "--resume", out)
+        self.assertEqual(without_seconds(resumed), without_seconds(one_object((whole / "result.json").read_text())))
+        self.assertEqual(contents(out), contents(whole))
+
+    def test_interrupted_end_points_resume_to_the_same_bits(self):
+        self.assert_resumes_from_an_interruption("endpoints", *SPHERES, "--packing-fraction", "0.5", *with_options(
+            QUICK_SPHERES, "--equilibration-collisions", "3000000"), after=0.3)
+
+    def test_diffusion_interrupted_in_equilibration_resumes_to_the_same_bits(self):
+        self.assert_resumes_from_an_interruption(
+            "diffusion", *SPHERES, "--packing-fraction", "0.5", "--equilibration-collisions", "3000000", "--interval", "0.01",
+            "--lags", "100", "--records", "500", "--trajectories", "2", "--between", "1000", after=0.3)
+
+    def test_diffusion_interrupted_in_a_trajectory_resumes_to_the_same_bits(self):
+        self.assert_resumes_from_an_interruption(
+            "diffusion", *SPHERES, "--packing-fraction", "0.5", "--equilibration-collisions", "1000", "--interval", "0.002",
+            "--lags", "500", "--records", "100000", "--trajectories", "4", "--between", "1000", after=0.4)
+
     def test_diffusion_gives_both_estimates_and_the_compressibility(self):
         result = self.done("diffusion", "--model", "hard-sphere", "--particles", "32", "--packing-fraction", "0.2", "--quick",
                            "--interval", "0.01", "--lags", "400", "--records", "4000", "--trajectories", "3", "--between", "1000")
