@@ -15,6 +15,10 @@ struct Configuration {
   std::vector<double> radii{};    // N, hard spheres only, else empty [sigma]
 
   std::size_t size() const { return species.size(); }
+  // Every particle into the box.
+  void wrap() {
+    for (std::size_t k = 0; k < positions.size(); ++k) positions[k] = box.wrapped(k % 3, positions[k]);
+  }
 };
 
 }  // namespace lanescape

@@ -48,4 +48,8 @@ double packing_fraction(const Configuration& configuration) {
   return 4.0 / 3.0 * std::numbers::pi * cubes / configuration.box.volume();
 }
 
+double cube_edge(const Configuration& spheres, double fraction) {
+  return std::cbrt(packing_fraction(spheres) / fraction * spheres.box.volume());
+}
+
 }  // namespace lanescape

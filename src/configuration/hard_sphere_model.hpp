@@ -28,5 +28,7 @@ HardSphereModel hard_sphere_binary();
 
 // (4 pi / 3V) sum r_i^3 of a configuration with radii.
 double packing_fraction(const Configuration& configuration);
+// The edge of the cube in which these spheres have this packing fraction [sigma].
+double cube_edge(const Configuration& spheres, double packing_fraction);
 
 }  // namespace lanescape

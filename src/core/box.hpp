@@ -16,6 +16,11 @@ struct Box {
   double nearest_image(std::size_t axis, double separation) const {
     return separation - length[axis] * std::nearbyint(separation / length[axis]);
   }
+  // Whole boxes taken off: 0 <= x < L.
+  double wrapped(std::size_t axis, double x) const {
+    x -= length[axis] * std::floor(x / length[axis]);
+    return x < length[axis] ? x : 0.0;  // rounding can leave x at the far face itself
+  }
   double shortest() const { return *std::min_element(length.begin(), length.end()); }
   friend bool operator==(const Box&, const Box&) = default;
 };

@@ -17,25 +17,11 @@ constexpr double push_margin = 1e-6;
 // Lists of some fifteen spheres at liquid densities, and several moves of the usual size until they are made anew.
 constexpr double skin_per_diameter = 0.5;
 
-double wrapped(double x, double length) {
-  x -= length * std::floor(x / length);
-  return x < length ? x : 0.0;  // rounding can leave x at the far face itself
-}
-
 }  // namespace
-
-double cube_edge(const Configuration& spheres, double fraction) {
-  return std::cbrt(packing_fraction(spheres) / fraction * spheres.box.volume());
-}
-
-void wrap_positions(Configuration& configuration) {
-  for (std::size_t k = 0; k < configuration.positions.size(); ++k)
-    configuration.positions[k] = wrapped(configuration.positions[k], configuration.box.length[k % 3]);
-}
 
 SqueezedSpheres::SqueezedSpheres(const Configuration& start)
     : spheres_(start), positions_(start.size()), list_begin_(start.size() + 1, 0) {
-  wrap_positions(spheres_);
+  spheres_.wrap();
   for (std::size_t i = 0; i < start.size(); ++i)
     positions_[i] = {spheres_.positions[3 * i], spheres_.positions[3 * i + 1], spheres_.positions[3 * i + 2]};
   skin_ = skin_per_diameter * 2.0 * *std::min_element(start.radii.begin(), start.radii.end());
@@ -47,7 +33,7 @@ Configuration SqueezedSpheres::configuration() const {
   Configuration now = spheres_;
   for (std::size_t i = 0; i < positions_.size(); ++i)
     for (std::size_t axis = 0; axis < 3; ++axis) now.positions[3 * i + axis] = positions_[i][axis];
-  wrap_positions(now);
+  now.wrap();
   return now;
 }
 
@@ -65,7 +51,7 @@ void SqueezedSpheres::make_lists() {
   const double largest = 2.0 * *std::max_element(spheres_.radii.begin(), spheres_.radii.end());
   CellGrid grid(spheres_.box, largest + skin_, positions_.size());
   for (std::size_t i = 0; i < positions_.size(); ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) positions_[i][axis] = wrapped(positions_[i][axis], spheres_.box.length[axis]);
+    for (std::size_t axis = 0; axis < 3; ++axis) positions_[i][axis] = spheres_.box.wrapped(axis, positions_[i][axis]);
     grid.insert(static_cast<std::int32_t>(i), positions_[i]);
   }
   lists_.clear();

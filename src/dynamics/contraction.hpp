@@ -66,9 +66,4 @@ struct ContractionOptions {
 std::optional<Configuration> contract(const Configuration& start, double packing_fraction, const ContractionOptions& options,
                                       std::uint64_t seed, RunMonitor& monitor);
 
-// The edge of the cube in which these spheres have this packing fraction [sigma].
-double cube_edge(const Configuration& spheres, double packing_fraction);
-// Positions inside the box, 0 <= x < L.
-void wrap_positions(Configuration& configuration);
-
 }  // namespace lanescape

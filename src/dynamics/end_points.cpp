@@ -48,6 +48,17 @@ void EndPointPair::exchange(Archive& archive) {
   archive.field("time", time);
 }
 
+void exchange_pairs(Archive& archive, std::vector<EndPointPair>& pairs) {
+  std::uint64_t count = pairs.size();
+  archive.field("pairs", count);
+  pairs.resize(count);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    archive.enter(fmt::format("pair{:04}", k + 1));
+    pairs[k].exchange(archive);
+    archive.leave();
+  }
+}
+
 double end_point_distance(const AlignedArray& a, const AlignedArray& b, const ParticleLayout& layout,
                           const std::vector<double>& masses, std::optional<int> species) {
   std::array<double, 3> drift{};
@@ -209,7 +220,7 @@ void EndPointGenerator::step() {
 
 void EndPointGenerator::exchange(Archive& archive) {
   verlet_.exchange(archive);
-  std::uint64_t phase = static_cast<std::uint64_t>(phase_), pairs = pairs_.size();
+  std::uint64_t phase = static_cast<std::uint64_t>(phase_);
   archive.field("phase", phase);
   phase_ = static_cast<Phase>(phase);
   archive.field("phase_start", phase_start_);
@@ -220,13 +231,7 @@ void EndPointGenerator::exchange(Archive& archive) {
   archive.field("mean_sum", mean_sum_);
   archive.field("checked_temperature", checked_temperature_);
   archive.field("pair_start", pair_start_);
-  archive.field("pairs", pairs);
-  pairs_.resize(pairs);
-  for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    archive.enter(fmt::format("pair{:04}", k + 1));
-    pairs_[k].exchange(archive);
-    archive.leave();
-  }
+  exchange_pairs(archive, pairs_);
 }
 
 }  // namespace lanescape

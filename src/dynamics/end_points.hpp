@@ -46,6 +46,9 @@ struct EndPointPair {
   void exchange(Archive& archive);
 };
 
+// All pairs of a protocol, in groups of their own.
+void exchange_pairs(Archive& archive, std::vector<EndPointPair>& pairs);
+
 // Runs the protocol one step at a time; all its state can be archived between steps.
 class EndPointGenerator {
  public:

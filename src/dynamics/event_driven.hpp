@@ -19,7 +19,7 @@ namespace lanescape {
 // each particle keeps its own time and its earliest event, a calendar finds the first of all, neighbour lists bound the
 // search. Time in sigma sqrt(m / k_B T).
 //
-// A particle's list holds every other one that it can touch before either leaves a sphere of radius shell() around the place
+// A particle's list holds every other one that it can touch before either leaves a sphere of radius `shell` around the place
 // its list was made at; leaving is an event. Every resync_interval() collisions, at counts that depend on nothing else, all
 // particles are brought to one time, which becomes zero again, and lists and calendar are made anew: rounding then never
 // grows with time, and a state between two collisions at such a count is positions, velocities and counters alone.
@@ -76,7 +76,6 @@ class EventDriven {
     std::uint64_t predictions = 0, stale_events = 0, shell_exits = 0;
   };
   const Statistics& statistics() const { return statistics_; }
-  double shell() const { return shell_; }
   double mean_neighbours() const;
 
  private:

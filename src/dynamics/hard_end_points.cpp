@@ -112,7 +112,7 @@ void HardEndPointGenerator::exchange(Archive& archive) {
   archive.enter("dynamics");
   dynamics_.exchange(archive);
   archive.leave();
-  std::uint64_t phase = static_cast<std::uint64_t>(phase_), pairs = pairs_.size();
+  std::uint64_t phase = static_cast<std::uint64_t>(phase_);
   archive.field("phase", phase);
   phase_ = static_cast<Phase>(phase);
   archive.field("phase_start", phase_start_);
@@ -120,13 +120,7 @@ void HardEndPointGenerator::exchange(Archive& archive) {
   archive.field("time_start", time_start_);
   archive.field("pair_start", pair_start_);
   archive.field("pair_start_time", pair_start_time_);
-  archive.field("pairs", pairs);
-  pairs_.resize(pairs);
-  for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    archive.enter(fmt::format("pair{:04}", k + 1));
-    pairs_[k].exchange(archive);
-    archive.leave();
-  }
+  exchange_pairs(archive, pairs_);
 }
 
 }  // namespace lanescape

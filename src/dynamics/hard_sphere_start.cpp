@@ -93,7 +93,7 @@ std::optional<Configuration> grown_start(const Configuration& dilute, double wan
   }
   now.species = dilute.species;
   now.radii = dilute.radii;
-  wrap_positions(now);
+  now.wrap();
   return now;
 }
 

@@ -35,8 +35,6 @@ CellGrid::CellGrid(const Box& box, double shortest_edge, std::size_t particles)
             }
 }
 
-void CellGrid::clear() { std::fill(first_.begin(), first_.end(), -1); }
-
 std::size_t CellGrid::cell_of(const std::array<double, 3>& position) const {
   std::array<std::size_t, 3> c{};
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -16,7 +16,6 @@ class CellGrid {
   // Cells with edges of at least `shortest_edge`; at most about one per particle.
   CellGrid(const Box& box, double shortest_edge, std::size_t particles);
 
-  void clear();
   void insert(std::int32_t particle, const std::array<double, 3>& position);
   // Moves a particle that is in the grid.
   void move(std::int32_t particle, const std::array<double, 3>& position);

@@ -34,7 +34,7 @@ inline const char* to_string(Outcome outcome) {
 
 struct FinderOptions {
   std::uint64_t max_steps = 1'000'000'000;
-  // Accepted steps without progress after which a path is stalled. Hard spheres make long detours: theirs is this times 1000.
+  // Accepted steps without progress after which a path is stalled; methods that make long detours multiply it (run/path_run.cpp).
   std::uint64_t patience = 1000;
   std::size_t frames = 100;  // configurations kept between the two ends
 };

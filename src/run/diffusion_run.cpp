@@ -223,21 +223,18 @@ void DiffusionRunOptions::check() const {
 DiffusionRunOptions source_diffusion_options(std::size_t species, double packing_fraction) {
   struct Row {
     double below, interval;
-    std::uint64_t lags, origins, between;
   };
-  static constexpr std::uint64_t few = 30'000, many = 40'000;
-  static constexpr Row mono[] = {{0.075, 1e-3, few, 100'000, 100'000}, {0.175, 5e-4, few, 100'000, 100'000},
-                                 {0.275, 2e-4, few, 100'000, 100'000}, {0.375, 1e-4, few, 100'000, 100'000},
-                                 {0.455, 5e-5, few, 100'000, 100'000}, {1.0, 3e-5, few, 100'000, 100'000}};
-  static constexpr Row mixed[] = {{0.075, 6e-4, many, 150'000, 200'000}, {0.175, 4e-4, many, 150'000, 200'000},
-                                  {0.275, 2e-4, many, 150'000, 200'000}, {0.375, 1.5e-4, many, 150'000, 200'000},
-                                  {0.495, 1e-4, many, 150'000, 200'000}, {1.0, 2e-5, 100'000, 200'000, 200'000}};
-  const Row* row = species > 1 ? mixed : mono;
+  static constexpr Row mono[] = {{0.075, 1e-3}, {0.175, 5e-4}, {0.275, 2e-4}, {0.375, 1e-4}, {0.455, 5e-5}, {1.0, 3e-5}};
+  static constexpr Row mixed[] = {{0.075, 6e-4}, {0.175, 4e-4}, {0.275, 2e-4}, {0.375, 1.5e-4}, {0.495, 1e-4}, {1.0, 2e-5}};
+  const bool mixture = species > 1, dense = mixture && packing_fraction >= 0.495;
+  const Row* row = mixture ? mixed : mono;
   while (packing_fraction >= row->below) ++row;
+  const std::uint64_t lags = dense ? 100'000 : mixture ? 40'000 : 30'000;
+  const std::uint64_t origins = dense ? 200'000 : mixture ? 150'000 : 100'000;
   DiffusionRunOptions options;
-  options.window = {row->interval, row->lags, row->origins + row->lags};
-  options.trajectories = species > 1 ? 10 : 5;
-  options.between = row->between;
+  options.window = {row->interval, lags, origins + lags};
+  options.trajectories = mixture ? 10 : 5;
+  options.between = mixture ? 200'000 : 100'000;
   return options;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <numeric>
+#include <string_view>
 
 #include "interaction/hard_sphere.hpp"
 #include "interaction/lennard_jones.hpp"
@@ -13,16 +14,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t trace_rows = 4096, trace_columns = 6, hard_trace_columns = 5, rdf_bins = 200;
-constexpr std::uint64_t resyncs_per_checkpoint = 50;  // about 1 s, large systems some
-constexpr std::uint64_t rdf_interval = 1000;          // [steps]
+constexpr std::size_t trace_rows = 4096, rdf_bins = 200;
 
-// Steps between looks at the clock and the outside world, and between checkpoints: about 10 ms and 1 s on one core.
-std::uint64_t steps_per_chunk(std::size_t particles) { return std::clamp<std::uint64_t>(150'000 / (particles + 1), 1, 1000); }
-constexpr std::uint64_t chunks_per_checkpoint = 100;
-
+// What a protocol of either family runs with, as archived.
+template <class Generator>
 struct EndPointState {
-  EndPointGenerator generator;
+  Generator generator;
   DecimatedTrace trace;
   RadialDistribution radial_distribution;
   double seconds = 0.0;
@@ -37,43 +34,130 @@ struct EndPointState {
   }
 };
 
-void one_step(EndPointState& state, std::size_t particles) {
-  state.generator.step();
-  const VelocityVerlet& verlet = state.generator.verlet();
-  if (state.trace.wants(verlet.steps())) {
-    const double n = static_cast<double>(particles), potential = verlet.potential_energy();
-    state.trace.add({static_cast<double>(verlet.steps()), static_cast<double>(verlet.steps()) * verlet.time_step(),
-                     verlet.temperature(), potential / n, (potential + verlet.kinetic_energy()) / n,
-                     static_cast<double>(state.generator.phase())});
-  }
-  if (state.generator.equilibrated() && verlet.steps() % rdf_interval == 0) state.radial_distribution.add(verlet.position());
-}
+struct SoftState : EndPointState<EndPointGenerator> {
+  static constexpr std::size_t trace_columns = 6;
+  static constexpr std::uint64_t rdf_interval = 1000;  // [steps]
+  static constexpr std::uint64_t chunks_per_checkpoint = 100;
 
-void report(const EndPointGenerator& generator, const EndPointOptions& options, RunMonitor& monitor) {
-  if (generator.phase() == EndPointGenerator::Phase::pair)
-    monitor.progress(EndPointGenerator::name(generator.phase()), std::min(generator.distance_so_far(), options.distance),
-                     options.distance);
-  else
-    monitor.progress(EndPointGenerator::name(generator.phase()), static_cast<double>(generator.phase_done()),
-                     static_cast<double>(generator.phase_total()));
-}
+  std::uint64_t chunk = 1;  // steps between looks at the clock and the outside world, about 10 ms on one core
+  std::size_t particles = 0;
+
+  void step() {
+    generator.step();
+    const VelocityVerlet& verlet = generator.verlet();
+    const auto steps = static_cast<double>(verlet.steps());
+    if (trace.wants(verlet.steps())) {
+      const double n = static_cast<double>(particles), potential = verlet.potential_energy();
+      trace.add({steps, steps * verlet.time_step(), verlet.temperature(), potential / n, (potential + verlet.kinetic_energy()) / n,
+                 static_cast<double>(generator.phase())});
+    }
+    if (generator.equilibrated() && verlet.steps() % rdf_interval == 0) radial_distribution.add(verlet.position());
+  }
+  bool at_chunk_end() const { return generator.verlet().steps() % chunk == 0; }
+  void end_chunk() {}
+  bool saveable() const { return true; }
+  bool checkpoint_due() const { return generator.verlet().steps() % (chunk * chunks_per_checkpoint) == 0; }
+};
+
+struct HardState : EndPointState<HardEndPointGenerator> {
+  static constexpr std::size_t trace_columns = 5;
+  static constexpr std::uint64_t resyncs_per_checkpoint = 50;  // about 1 s, large systems some
+
+  const ParticleLayout* layout = nullptr;
+  double virial = 0.0, time = 0.0;  // at the end of the last chunk
+
+  void step() {
+    generator.step();
+    // A sample takes N^2/2 distances, a collision some hundred.
+    const std::uint64_t interval = std::max<std::uint64_t>(2000, layout->size() * layout->size() / 4);
+    if (generator.equilibrated() && generator.dynamics().collisions() % interval == 0)
+      radial_distribution.add(layout->to_slots(generator.dynamics().positions()));
+  }
+  bool at_chunk_end() const { return generator.dynamics().at_resync(); }
+  // Traces what happened since the last resynchronisation.
+  void end_chunk() {
+    const EventDriven& dynamics = generator.dynamics();
+    const double rate =
+        2.0 * static_cast<double>(dynamics.resync_interval()) / static_cast<double>(dynamics.size()) / (dynamics.time() - time);
+    if (trace.wants(dynamics.collisions() / dynamics.resync_interval()))
+      trace.add({static_cast<double>(dynamics.collisions()), dynamics.time(), dynamics.compressibility(virial, time), rate,
+                 static_cast<double>(generator.phase())});
+    virial = dynamics.virial();
+    time = dynamics.time();
+  }
+  // Only a resynchronised state goes on with the same bits; one comes every few hundredths of a second.
+  bool saveable() const { return generator.dynamics().at_resync(); }
+  bool checkpoint_due() const {
+    return generator.dynamics().collisions() % (resyncs_per_checkpoint * generator.dynamics().resync_interval()) == 0;
+  }
+  void exchange(Archive& archive) {
+    EndPointState::exchange(archive);
+    archive.field("trace_virial", virial);
+    archive.field("trace_time", time);
+  }
+};
 
 template <class Generator>
-std::vector<std::string> phase_names() {
-  std::vector<std::string> names;
-  for (std::uint64_t phase = 0; *Generator::name(static_cast<typename Generator::Phase>(phase)) != 0; ++phase)
-    names.push_back(Generator::name(static_cast<typename Generator::Phase>(phase)));
-  return names;
+void report(const Generator& generator, double distance, RunMonitor& monitor) {
+  const std::string_view phase = Generator::name(generator.phase());
+  if (generator.phase() == Generator::Phase::pair)
+    monitor.progress(phase, std::min(generator.distance_so_far(), distance), distance);
+  else
+    monitor.progress(phase, static_cast<double>(generator.phase_done()), static_cast<double>(generator.phase_total()));
 }
 
-void add_pairs(EndPointRunResult& result, const std::vector<EndPointPair>& pairs, const Configuration& start,
-               const ParticleLayout& layout) {
-  for (const EndPointPair& pair : pairs)
-    result.pairs.push_back({{start.box, start.species, layout.to_user(pair.start), start.radii},
-                            {start.box, start.species, layout.to_user(pair.finish), start.radii},
-                            pair.distance,
-                            pair.steps,
-                            pair.time});
+// Runs a protocol to its end, or until the monitor asks to stop: whether it did.
+template <class State>
+bool run_protocol(State& state, double distance, const CheckpointOptions& checkpoint, RunMonitor& monitor) {
+  const auto file = checkpoint.folder / "endpoints.h5";
+  if (checkpoint.enabled() && checkpoint.resume) load_checkpoint(file, state);
+  auto& generator = state.generator;
+  const bool was_ended = generator.ended();
+  auto last = Clock::now();
+  bool interrupted = false;
+  while (!generator.ended() && !interrupted) {
+    // To the end of the chunk, or of the pair, whose time is wanted.
+    const std::size_t pairs_before = generator.pairs().size();
+    do state.step();
+    while (generator.pairs().size() == pairs_before && !generator.ended() && !state.at_chunk_end());
+    if (state.at_chunk_end()) state.end_chunk();
+    const auto now = Clock::now();
+    state.seconds += std::chrono::duration<double>(now - last).count();
+    last = now;
+    if (generator.pairs().size() > pairs_before)
+      state.pair_seconds.push_back(state.seconds - std::accumulate(state.pair_seconds.begin(), state.pair_seconds.end(), 0.0));
+    report(generator, distance, monitor);
+    if (!state.saveable()) continue;
+    interrupted = !generator.ended() && monitor.stop_requested();
+    if (checkpoint.enabled() && (state.checkpoint_due() || interrupted)) save_checkpoint(file, state);
+  }
+  if (checkpoint.enabled() && generator.ended() && !was_ended && state.saveable()) save_checkpoint(file, state);
+  return interrupted;
+}
+
+template <class State>
+EndPointRunResult summarise(const State& state, bool interrupted, const Configuration& start, const ParticleLayout& layout,
+                            std::vector<std::string> trace_columns) {
+  using Generator = decltype(state.generator);
+  using Phase = typename Generator::Phase;
+  EndPointRunResult result{.done = state.generator.phase() == Phase::done,
+                           .interrupted = interrupted,
+                           .ended_as = Generator::name(state.generator.phase()),
+                           .pair_seconds = state.pair_seconds,
+                           .seconds = state.seconds,
+                           .trace_columns = std::move(trace_columns),
+                           .trace = state.trace,
+                           .phase_names = {},
+                           .radial_distribution = state.radial_distribution};
+  for (std::uint64_t phase = 0; *Generator::name(static_cast<Phase>(phase)) != 0; ++phase)
+    result.phase_names.push_back(Generator::name(static_cast<Phase>(phase)));
+  for (const EndPointPair& pair : state.generator.pairs())
+    result.pairs.push_back({.start = {start.box, start.species, layout.to_user(pair.start), start.radii},
+                            .finish = {start.box, start.species, layout.to_user(pair.finish), start.radii},
+                            .distance = pair.distance,
+                            .steps = pair.steps,
+                            .time = pair.time});
+  return result;
 }
 
 }  // namespace
@@ -83,139 +167,29 @@ EndPointRunResult run_end_points(const LennardJonesModel& model, const Configura
   check_separations(start, model);
   const ParticleLayout layout(start.species, model.species.size());
   LennardJonesLandscape landscape(model, start.box, layout, isa);
-  EndPointState state{EndPointGenerator(landscape, model, layout, layout.to_slots(start.positions), options),
-                      DecimatedTrace(trace_columns, trace_rows), RadialDistribution(start.box, layout, rdf_bins)};
-  const auto file = checkpoint.folder / "endpoints.h5";
-  if (checkpoint.enabled() && checkpoint.resume) load_checkpoint(file, state);
-
-  auto last = Clock::now();
-  const std::uint64_t chunk = steps_per_chunk(layout.size());
-  bool interrupted = false;
-  const bool was_ended = state.generator.ended();
-  while (!state.generator.ended() && !interrupted) {
-    // To the end of the chunk, or of the pair, whose time is wanted.
-    const std::size_t pairs_before = state.generator.pairs().size();
-    do one_step(state, layout.size());
-    while (state.generator.pairs().size() == pairs_before && !state.generator.ended() &&
-           state.generator.verlet().steps() % chunk != 0);
-    const auto now = Clock::now();
-    state.seconds += std::chrono::duration<double>(now - last).count();
-    last = now;
-    if (state.generator.pairs().size() > pairs_before)
-      state.pair_seconds.push_back(state.seconds - std::accumulate(state.pair_seconds.begin(), state.pair_seconds.end(), 0.0));
-    report(state.generator, options, monitor);
-    interrupted = !state.generator.ended() && monitor.stop_requested();
-    const bool due = state.generator.verlet().steps() % (chunk * chunks_per_checkpoint) == 0;
-    if (checkpoint.enabled() && (due || interrupted)) save_checkpoint(file, state);
-  }
-  if (checkpoint.enabled() && state.generator.ended() && !was_ended) save_checkpoint(file, state);
-
-  EndPointRunResult result{
-      .done = state.generator.phase() == EndPointGenerator::Phase::done,
-      .interrupted = interrupted,
-      .ended_as = EndPointGenerator::name(state.generator.phase()),
-      .pair_seconds = state.pair_seconds,
-      .temperature = state.generator.mean_temperature(),
-      .seconds = state.seconds,
-      .trace_columns = {"step", "time", "temperature", "potential_energy_per_particle", "energy_per_particle", "phase"},
-      .trace = state.trace,
-      .phase_names = phase_names<EndPointGenerator>(),
-      .radial_distribution = state.radial_distribution};
-  add_pairs(result, state.generator.pairs(), start, layout);
+  SoftState state{{EndPointGenerator(landscape, model, layout, layout.to_slots(start.positions), options),
+                   DecimatedTrace(SoftState::trace_columns, trace_rows), RadialDistribution(start.box, layout, rdf_bins)},
+                  std::clamp<std::uint64_t>(150'000 / (layout.size() + 1), 1, 1000),
+                  layout.size()};
+  const bool interrupted = run_protocol(state, options.distance, checkpoint, monitor);
+  EndPointRunResult result =
+      summarise(state, interrupted, start, layout,
+                {"step", "time", "temperature", "potential_energy_per_particle", "energy_per_particle", "phase"});
+  result.temperature = state.generator.mean_temperature();
   return result;
 }
-
-namespace {
-
-struct HardEndPointState {
-  HardEndPointGenerator generator;
-  DecimatedTrace trace;
-  RadialDistribution radial_distribution;
-  double virial = 0.0, time = 0.0;  // at the last row of the trace
-  double seconds = 0.0;
-  std::vector<double> pair_seconds{};
-
-  void exchange(Archive& archive) {
-    generator.exchange(archive);
-    trace.exchange(archive);
-    radial_distribution.exchange(archive);
-    archive.field("trace_virial", virial);
-    archive.field("trace_time", time);
-    archive.field("seconds", seconds);
-    archive.field("pair_seconds", pair_seconds);
-  }
-};
-
-void report(const HardEndPointGenerator& generator, const HardEndPointOptions& options, RunMonitor& monitor) {
-  if (generator.phase() == HardEndPointGenerator::Phase::pair)
-    monitor.progress(HardEndPointGenerator::name(generator.phase()), std::min(generator.distance_so_far(), options.distance),
-                     options.distance);
-  else
-    monitor.progress(HardEndPointGenerator::name(generator.phase()), static_cast<double>(generator.phase_done()),
-                     static_cast<double>(generator.phase_total()));
-}
-
-// At every resynchronisation: what happened since the last.
-void trace_interval(HardEndPointState& state) {
-  const EventDriven& dynamics = state.generator.dynamics();
-  const std::uint64_t interval = dynamics.collisions() / dynamics.resync_interval();
-  const double rate =
-      2.0 * static_cast<double>(dynamics.resync_interval()) / static_cast<double>(dynamics.size()) / (dynamics.time() - state.time);
-  if (state.trace.wants(interval))
-    state.trace.add({static_cast<double>(dynamics.collisions()), dynamics.time(),
-                     dynamics.compressibility(state.virial, state.time), rate, static_cast<double>(state.generator.phase())});
-  state.virial = dynamics.virial();
-  state.time = dynamics.time();
-}
-
-}  // namespace
 
 EndPointRunResult run_hard_end_points(const HardSphereModel& model, const Configuration& start, const HardEndPointOptions& options,
                                       Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor) {
   check_no_overlap(start, kernel_table(isa));
   const ParticleLayout layout(start.species, model.species.size());
-  HardEndPointState state{HardEndPointGenerator(model, layout, start, options, isa), DecimatedTrace(hard_trace_columns, trace_rows),
-                          RadialDistribution(start.box, layout, rdf_bins)};
-  const auto file = checkpoint.folder / "endpoints.h5";
-  if (checkpoint.enabled() && checkpoint.resume) load_checkpoint(file, state);
-
-  // A sample takes N^2/2 distances, a collision some hundred.
-  const std::uint64_t rdf_interval_here = std::max<std::uint64_t>(2000, layout.size() * layout.size() / 4);
-  auto last = Clock::now();
-  bool interrupted = false;
-  while (!state.generator.ended() && !interrupted) {
-    const std::size_t pairs_before = state.generator.pairs().size();
-    const EventDriven& dynamics = state.generator.dynamics();
-    do {
-      state.generator.step();
-      if (state.generator.equilibrated() && dynamics.collisions() % rdf_interval_here == 0)
-        state.radial_distribution.add(layout.to_slots(dynamics.positions()));
-    } while (!state.generator.ended() && state.generator.pairs().size() == pairs_before && !dynamics.at_resync());
-    if (dynamics.at_resync()) trace_interval(state);
-    const auto now = Clock::now();
-    state.seconds += std::chrono::duration<double>(now - last).count();
-    last = now;
-    if (state.generator.pairs().size() > pairs_before)
-      state.pair_seconds.push_back(state.seconds - std::accumulate(state.pair_seconds.begin(), state.pair_seconds.end(), 0.0));
-    report(state.generator, options, monitor);
-    // Only a resynchronised state goes on with the same bits; one comes every few hundredths of a second.
-    if (!dynamics.at_resync()) continue;
-    interrupted = !state.generator.ended() && monitor.stop_requested();
-    const bool due = dynamics.collisions() % (resyncs_per_checkpoint * dynamics.resync_interval()) == 0;
-    if (checkpoint.enabled() && (due || interrupted)) save_checkpoint(file, state);
-  }
-
-  EndPointRunResult result{.done = state.generator.phase() == HardEndPointGenerator::Phase::done,
-                           .interrupted = interrupted,
-                           .ended_as = HardEndPointGenerator::name(state.generator.phase()),
-                           .pair_seconds = state.pair_seconds,
-                           .compressibility = state.generator.compressibility(),
-                           .seconds = state.seconds,
-                           .trace_columns = {"collisions", "time", "compressibility", "collision_rate", "phase"},
-                           .trace = state.trace,
-                           .phase_names = phase_names<HardEndPointGenerator>(),
-                           .radial_distribution = state.radial_distribution};
-  add_pairs(result, state.generator.pairs(), start, layout);
+  HardState state{{HardEndPointGenerator(model, layout, start, options, isa), DecimatedTrace(HardState::trace_columns, trace_rows),
+                   RadialDistribution(start.box, layout, rdf_bins)},
+                  &layout};
+  const bool interrupted = run_protocol(state, options.distance, checkpoint, monitor);
+  EndPointRunResult result =
+      summarise(state, interrupted, start, layout, {"collisions", "time", "compressibility", "collision_rate", "phase"});
+  result.compressibility = state.generator.compressibility();
   return result;
 }
 

@@ -30,13 +30,13 @@ struct EndPointRunResult {
   bool done = false, interrupted = false;
   std::string ended_as;  // the phase it ended in
   std::vector<ConfigurationPair> pairs{};
-  std::vector<double> pair_seconds;  // computing time since the pair before, equilibration included
+  std::vector<double> pair_seconds{};  // computing time since the pair before, equilibration included
   double temperature = 0.0;          // soft: mean since equilibrium, 3N convention
   double compressibility = 0.0;      // hard: Z since equilibrium, 3N - 3 convention
   double seconds = 0.0;
   std::vector<std::string> trace_columns;  // the last one is a phase
   DecimatedTrace trace;
-  std::vector<std::string> phase_names;
+  std::vector<std::string> phase_names{};
   RadialDistribution radial_distribution;
 };
 

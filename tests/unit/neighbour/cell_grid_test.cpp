@@ -108,14 +108,5 @@ TEST(CellGrid, PutsUnwrappedPositionsIntoTheirImagesCell) {
   EXPECT_EQ(near(grid, {-1e-20, -1e-20, -1e-20}), (std::vector<std::int32_t>{0, 1}));
 }
 
-TEST(CellGrid, IsEmptyAfterClear) {
-  const Box box{{6.0, 6.0, 6.0}};
-  CellGrid grid = filled(box, 1.0, random_points(20, box, 6));
-  grid.clear();
-  EXPECT_TRUE(near(grid, {3.0, 3.0, 3.0}).empty());
-  grid.insert(7, {3.0, 3.0, 3.0});
-  EXPECT_EQ(near(grid, {3.0, 3.0, 3.0}), std::vector<std::int32_t>{7});
-}
-
 }  // namespace
 }  // namespace lanescape
