@@ -21,9 +21,10 @@ namespace lanescape {
 // One pair as its user sees it: both ends unwrapped, in the user's order.
 struct ConfigurationPair {
   Configuration start, finish;
-  double distance = 0.0;    // [sigma]
-  std::uint64_t steps = 0;  // of molecular dynamics between the two, or collisions; 0 if not known
-  double time = 0.0;        // likewise
+  double distance = 0.0;       // [sigma]
+  std::uint64_t steps = 0;     // of molecular dynamics between the two, or collisions; 0 if not known
+  double time = 0.0;           // likewise
+  double radius_factor = 1.0;  // by which radii of a file were scaled, where its rounding made spheres overlap
 };
 
 struct EndPointRunResult {
@@ -31,8 +32,8 @@ struct EndPointRunResult {
   std::string ended_as;  // the phase it ended in
   std::vector<ConfigurationPair> pairs{};
   std::vector<double> pair_seconds{};  // computing time since the pair before, equilibration included
-  double temperature = 0.0;          // soft: mean since equilibrium, 3N convention
-  double compressibility = 0.0;      // hard: Z since equilibrium, 3N - 3 convention
+  double temperature = 0.0;            // soft: mean since equilibrium, 3N convention
+  double compressibility = 0.0;        // hard: Z since equilibrium, 3N - 3 convention
   double seconds = 0.0;
   std::vector<std::string> trace_columns;  // the last one is a phase
   DecimatedTrace trace;

@@ -15,6 +15,7 @@
 #include "landscape/hard_sphere_landscape.hpp"
 #include "landscape/kinematic_landscape.hpp"
 #include "landscape/lennard_jones_landscape.hpp"
+#include "observables/heterogeneity.hpp"
 #include "stepper/away.hpp"
 #include "stepper/contour.hpp"
 #include "stepper/escape.hpp"
@@ -35,7 +36,6 @@ std::unique_ptr<SoftLandscape> make_landscape(const LennardJonesModel& model, co
   return std::make_unique<KinematicLandscape>(std::move(landscape), metric);
 }
 
-bool is_hard(PathMethod method) { return method == PathMethod::avoidance || method == PathMethod::away; }
 // How much longer than soft particles a method may take without progress: avoidance makes long detours of short steps.
 std::uint64_t patience_factor(PathMethod method) {
   if (method == PathMethod::avoidance) return 1000;
@@ -141,6 +141,13 @@ PathResult summarise(const Search<Stepper>& search, const ConfigurationPair& pai
     result.frames.push_back(reversed ? pair.start : pair.finish);
   else
     add(finder.position());
+  const auto &first = result.frames.front(), &last = result.frames.back();
+  for (std::size_t j = 0; j < first.size(); ++j)
+    result.particle_displacements.push_back(std::hypot(last.positions[3 * j] - first.positions[3 * j],
+                                                       last.positions[3 * j + 1] - first.positions[3 * j + 1],
+                                                       last.positions[3 * j + 2] - first.positions[3 * j + 2]));
+  result.heterogeneity =
+      heterogeneity_widths(result.particle_lengths, result.particle_displacements, first.species, prepared.layout.blocks().size());
   return result;
 }
 
@@ -187,28 +194,31 @@ struct Walk {
   double violation(const AlignedArray&) { return 0.0; }  // the finder knows it of every point
 };
 
-template <>
-struct Walk<AvoidanceStepper> {
+struct HardWalk {
   std::unique_ptr<HardSphereLandscape> landscape;
-  AvoidanceStepper stepper;
 
-  Walk(const Run& run, const ConfigurationPair& pair, const PreparedPair& prepared, const AlignedArray&)
-      : landscape(std::make_unique<HardSphereLandscape>(pair.start.box, prepared.layout, pair.start.radii, run.isa)),
-        stepper(*landscape, {.direct_step = run.options.step_length(),
-                             .avoidance_step = run.options.avoidance_step,
-                             .potential = run.options.fictitious}) {}
+  HardWalk(const Run& run, const ConfigurationPair& pair, const PreparedPair& prepared)
+      : landscape(std::make_unique<HardSphereLandscape>(pair.start.box, prepared.layout, pair.start.radii, run.isa)) {}
   double violation(const AlignedArray& position) { return landscape->violation(position); }
 };
 
 template <>
-struct Walk<AwayStepper> {
-  std::unique_ptr<HardSphereLandscape> landscape;
+struct Walk<AvoidanceStepper> : HardWalk {
+  AvoidanceStepper stepper;
+
+  Walk(const Run& run, const ConfigurationPair& pair, const PreparedPair& prepared, const AlignedArray&)
+      : HardWalk(run, pair, prepared),
+        stepper(*landscape, {.direct_step = run.options.step_length(),
+                             .avoidance_step = run.options.avoidance_step,
+                             .potential = run.options.fictitious}) {}
+};
+
+template <>
+struct Walk<AwayStepper> : HardWalk {
   AwayStepper stepper;
 
   Walk(const Run& run, const ConfigurationPair& pair, const PreparedPair& prepared, const AlignedArray& goal)
-      : landscape(std::make_unique<HardSphereLandscape>(pair.start.box, prepared.layout, pair.start.radii, run.isa)),
-        stepper(pair.start.box, prepared.layout, pair.start.radii, *landscape, goal, {}) {}
-  double violation(const AlignedArray& position) { return landscape->violation(position); }
+      : HardWalk(run, pair, prepared), stepper(pair.start.box, prepared.layout, pair.start.radii, *landscape, goal, {}) {}
 };
 
 template <class Stepper>
@@ -296,6 +306,8 @@ const char* to_string(PathMethod method) {
   }
   return "";
 }
+
+bool is_hard(PathMethod method) { return method == PathMethod::avoidance || method == PathMethod::away; }
 
 void check_method(PathMethod method, const Model& model) {
   if (is_hard(method) == std::holds_alternative<HardSphereModel>(model)) return;

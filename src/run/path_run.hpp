@@ -24,6 +24,8 @@ enum class PathMethod { contour, escape, avoidance, away };
 // Throws Error(bad_input) naming the allowed words.
 PathMethod parse_path_method(std::string_view word);
 const char* to_string(PathMethod method);
+// Whether it is for hard spheres.
+bool is_hard(PathMethod method);
 // Throws Error(bad_input) where the method is not for this kind of model.
 void check_method(PathMethod method, const Model& model);
 
@@ -63,7 +65,9 @@ struct PathResult {
   double landscape_energy = 0.0;           // E_L, soft [epsilon]
   double largest_violation = 0.0;  // soft: largest V - E_L of an accepted point; hard: deepest overlap in a frame; at least 0
   std::vector<StepHistogram> histograms;
-  std::vector<double> particle_lengths;  // g_j of each particle, user's order [sigma]
+  // Of each particle, user's order: g_j, and the distance between its ends [sigma].
+  std::vector<double> particle_lengths, particle_displacements;
+  std::vector<double> heterogeneity;  // heterogeneity_widths() per species
   double seconds = 0.0;
   DecimatedTrace trace{PathRecorder::columns, PathRecorder::trace_rows};
   std::vector<Configuration> frames;  // from one end to the other, ends included

@@ -652,9 +652,24 @@ class HardSpheres(ProgramTest):
         write(-1e-3)
         self.refused("path", "--model", "hard-sphere", "--pair", file, says="overlap")
         write(-1e-8)
-        result = self.done("path", "--model", "hard-sphere", "--pair", file)
+        result = self.done("path", "--model", "hard-sphere", "--pair", file, "--out", self.folder / "path")
         self.assertLess(result["radius_factor"], 1.0)
         self.assertGreater(result["radius_factor"], 1.0 - 1e-7)
+        resumed = self.done("path", "--resume", self.folder / "path")
+        self.assertEqual(without_seconds(resumed), without_seconds(result))
+        single = self.folder / "single.extxyz"
+        single.write_text(frame("Ar 0 0 0 0.5", "Ar 0.99999999 0 0 0.5", header=SPHERE_HEADER))
+        ends = self.done("endpoints", "--model", "hard-sphere", "--start", single, *with_options(QUICK_SPHERES, "--distance", "1"))
+        self.assertEqual(ends["radius_factor"], result["radius_factor"])
+
+    def test_the_away_method_reaches_its_goal_in_a_dilute_fluid(self):
+        pair = self.done("endpoints", *SPHERES, "--packing-fraction", "0.1", *QUICK_SPHERES, "--out", self.folder / "ends")["pairs"][0]
+        path, = self.done("path", "--model", "hard-sphere-binary", "--method", "away", "--pair", pair["file"])["paths"]
+        self.assertEqual(path["outcome"], "reached")
+        self.assertEqual(set(path["steps"]), {"direct", "away"})
+        self.assertLess(path["largest_violation"], 1e-9)
+        self.assertEqual(set(path["heterogeneity"]), {"Xe", "Ar"})
+        self.refused("path", *SPHERES, "--method", "away", "--step", "0.1", says="--step is not allowed")
 
 
 class Verify(ProgramTest):

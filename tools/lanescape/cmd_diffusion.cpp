@@ -121,6 +121,7 @@ Json run_diffusion_command(DiffusionState& state, const Options& options, int& s
   Json result = to_json(run, mixture_of(model), hard);
   result["model"] = mixture_of(model).name;
   if (hard) result["packing_fraction"] = packing_fraction(start);
+  if (state.setup.radius_factor()) result["radius_factor"] = *state.setup.radius_factor();
   result["particles"] = start.size();
   result["isa"] = to_string(isa);
   status = run.interrupted || !run.equilibrated ? goal_not_reached : done;

@@ -18,7 +18,7 @@ struct OverlapState {
 Json run_overlap(OverlapState& state, const Options& options, int& status) {
   state.common.check();
   const Isa isa = state.common.resolve_isa();
-  const Configuration spheres = read_hard_frame(state.file).configuration;
+  const Configuration spheres = read_hard_frame(state.file);
   try {
     check_box_holds_spheres(spheres);
   } catch (const Error& error) {

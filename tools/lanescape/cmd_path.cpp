@@ -46,65 +46,50 @@ struct PathState {
   }
 };
 
-// Both frames of a pair of hard spheres with radii scaled by one factor, where a file's rounding makes some overlap.
-double scale_radii(ConfigurationPair& pair, double tolerance, const std::string& where) {
+// Scales the radii of both frames by one factor, where a file's rounding makes some overlap.
+void scale_radii(ConfigurationPair& pair, double tolerance, const std::string& where) {
   try {
     const double factor = std::min(rounding_overlap_factor(pair.start, tolerance), rounding_overlap_factor(pair.finish, tolerance));
     for (Configuration* end : {&pair.start, &pair.finish})
       for (double& radius : end->radii) radius *= factor;
-    return factor;
+    pair.radius_factor *= factor;
   } catch (const Error& error) {
     throw Error(error.code(), fmt::format("{}: {}", where, error.what()));
   }
 }
 
-// `least_factor` becomes the radius factor of this pair, if that is smaller.
-ConfigurationPair read_pair(const std::filesystem::path& file, const Model& model, double tolerance, double& least_factor) {
+ConfigurationPair read_pair(const std::filesystem::path& file, const Model& model, double tolerance) {
   const bool hard = std::holds_alternative<HardSphereModel>(model);
   std::vector<Frame> frames = read_frames(file, mixture_of(model), hard ? RadiusColumn::required : RadiusColumn::ignored);
   if (frames.size() != 2)
     throw_bad_input(fmt::format("{}: holds {} frames: a pair of end points is two", file.string(), frames.size()));
   ConfigurationPair pair{std::move(frames[0].configuration), std::move(frames[1].configuration)};
-  if (hard) least_factor = std::min(least_factor, scale_radii(pair, tolerance, file.string()));
+  if (hard) scale_radii(pair, tolerance, file.string());
   check_end_points(pair, model, file.string());
   for (std::size_t k = 0; k < pair.start.positions.size(); ++k)
     pair.distance = std::hypot(pair.distance, pair.finish.positions[k] - pair.start.positions[k]);
   return pair;
 }
 
-// The pairs a resumed run was started with: its folder holds a copy of each.
-std::vector<ConfigurationPair> read_kept_pairs(const OutputFolder& folder, const Model& model, double tolerance,
-                                               double& least_factor) {
+// What scale_radii() did when the pair was kept.
+double kept_radius_factor(const std::filesystem::path& file, const Model& model) {
+  const auto info = read_frames(file, mixture_of(model)).front().info;
+  const auto found = info.find(radius_factor_key);
+  return found == info.end() ? 1.0 : std::stod(found->second);
+}
+
+// The pairs a resumed run was started with: its folder holds a copy of each, with radii scaled already.
+std::vector<ConfigurationPair> read_kept_pairs(const OutputFolder& folder, const Model& model, double tolerance) {
   std::vector<ConfigurationPair> pairs;
-  for (std::filesystem::path file; std::filesystem::exists(file = folder.path() / pair_file_name(pairs.size()));)
-    pairs.push_back(read_pair(file, model, tolerance, least_factor));
+  for (std::filesystem::path file; std::filesystem::exists(file = folder.path() / pair_file_name(pairs.size()));) {
+    pairs.push_back(read_pair(file, model, tolerance));
+    pairs.back().radius_factor *= kept_radius_factor(file, model);
+  }
   return pairs;
 }
 
-bool is_soft(PathMethod method) { return method == PathMethod::contour || method == PathMethod::escape; }
-
-double displacement(const PathResult& path, std::size_t particle) {
-  double squared = 0.0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    squared += std::pow(path.frames.back().positions[3 * particle + axis] - path.frames.front().positions[3 * particle + axis], 2);
-  return std::sqrt(squared);
-}
-
-// Standard deviation of log10(g_j / DeltaR_j) over the particles that moved: how unequally they share the detour.
-double heterogeneity(const PathResult& path) {
-  double sum = 0.0, squares = 0.0, n = 0.0;
-  for (std::size_t j = 0; j < path.particle_lengths.size(); ++j) {
-    const double r = displacement(path, j);
-    if (!(r > 0.0)) continue;
-    const double x = std::log10(path.particle_lengths[j] / r);
-    sum += x;
-    squares += x * x;
-    n += 1.0;
-  }
-  return n > 0.0 ? std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n))) : 0.0;
-}
-
-Json to_json(const PathResult& path, PathMethod method, std::size_t particles) {
+Json to_json(const PathResult& path, PathMethod method, const Mixture& mixture) {
+  const auto particles = static_cast<double>(path.frames.front().size());
   const bool complete = path.outcome == Outcome::reached;
   Json json;
   json["outcome"] = to_string(path.outcome);
@@ -112,15 +97,16 @@ Json to_json(const PathResult& path, PathMethod method, std::size_t particles) {
   json["length"] = path.length;
   json["distance"] = path.distance;
   json["ratio_squared"] = complete ? Json(path.ratio_squared()) : Json();
-  json["participation_ratio"] = path.participation_number / static_cast<double>(particles);
+  json["participation_ratio"] = path.participation_number / particles;
   json["steps"] = {{"direct", path.direct_steps}, {to_string(method), path.detour_steps}};
   json["corrections"] = path.corrections;
   json["evaluations"] = path.evaluations;
   json["seconds"] = path.seconds;
-  json["landscape_energy"] = is_soft(method) ? Json(path.landscape_energy) : Json();
+  json["landscape_energy"] = is_hard(method) ? Json() : Json(path.landscape_energy);
   json["largest_violation"] = path.largest_violation;
   for (const StepHistogram& h : path.histograms) json["mean_over_steps"][h.quantity] = h.mean();
-  if (complete) json["heterogeneity"] = heterogeneity(path);
+  for (std::size_t s = 0; complete && s < path.heterogeneity.size(); ++s)
+    json["heterogeneity"][mixture.species[s].name] = path.heterogeneity[s];
   json["reversed"] = path.reversed;
   return json;
 }
@@ -142,7 +128,7 @@ void add_mean(Json& json, const std::vector<PathResult>& paths) {
 
 void write_trace(std::ostream& out, const PathResult& path, PathMethod method) {
   fmt::print(out, "step,length,distance_to_goal,{},direct_fraction,participation_ratio\n",
-             is_soft(method) ? "energy" : "moved_particles");
+             is_hard(method) ? "moved_particles" : "energy");
   const DecimatedTrace& trace = path.trace;
   double step_before = 0.0, direct_before = 0.0;
   for (std::size_t r = 0; r < trace.rows(); ++r) {
@@ -166,7 +152,7 @@ void write_particles(std::ostream& out, const PathResult& path, const Mixture& m
   out << "particle,species,path_length,displacement\n";
   for (std::size_t j = 0; j < path.particle_lengths.size(); ++j)
     fmt::print(out, "{},{},{},{}\n", j, model.species[static_cast<std::size_t>(path.frames.front().species[j])].name,
-               path.particle_lengths[j], displacement(path, j));
+               path.particle_lengths[j], path.particle_displacements[j]);
 }
 
 void write_files(OutputFolder& folder, const std::vector<PathResult>& paths, PathMethod method, const Mixture& model) {
@@ -198,15 +184,13 @@ struct PathInput {
   std::vector<ConfigurationPair> pairs;  // from files
   Configuration start;                   // without files: what the end points are made from
   EndPointProtocol protocol;
-  double radius_factor = 1.0;
 };
 
-PathInput read_input(const PathState& state, const Model& model, Isa isa) {
+PathInput read_input(PathState& state, const Model& model, Isa isa) {
   PathInput input;
   if (!state.pair_files.empty()) {
     if (!state.common.resume.empty()) return input;
-    for (const std::string& file : state.pair_files)
-      input.pairs.push_back(read_pair(file, model, state.setup.overlap_tolerance(), input.radius_factor));
+    for (const std::string& file : state.pair_files) input.pairs.push_back(read_pair(file, model, state.setup.overlap_tolerance()));
   } else {
     input.start = state.setup.start(model, state.common, isa);
     input.protocol = state.setup.resolve(model, input.start.size(), state.common.seed);
@@ -215,9 +199,9 @@ PathInput read_input(const PathState& state, const Model& model, Isa isa) {
 }
 
 // The paths found, in JSON; whether all reached their goal.
-bool add_paths(Json& json, const std::vector<PathResult>& paths, PathMethod method) {
+bool add_paths(Json& json, const std::vector<PathResult>& paths, PathMethod method, const Mixture& mixture) {
   json["paths"] = Json::array();
-  for (const PathResult& path : paths) json["paths"].push_back(to_json(path, method, path.frames.front().size()));
+  for (const PathResult& path : paths) json["paths"].push_back(to_json(path, method, mixture));
   add_mean(json, paths);
   return std::all_of(paths.begin(), paths.end(), [](const PathResult& path) { return path.outcome == Outcome::reached; });
 }
@@ -249,7 +233,7 @@ Json run_path(PathState& state, const Options& options, const Options& setup_opt
     ends_made = ends.reached;
     result["endpoints"] = std::move(ends.json);
   } else if (resumed) {
-    input.pairs = read_kept_pairs(folder, model, state.setup.overlap_tolerance(), input.radius_factor);
+    input.pairs = read_kept_pairs(folder, model, state.setup.overlap_tolerance());
   } else {
     for (std::size_t k = 0; k < input.pairs.size(); ++k) write_pair(folder, k, input.pairs[k], mixture);
   }
@@ -259,12 +243,16 @@ Json run_path(PathState& state, const Options& options, const Options& setup_opt
     TerminalMonitor monitor(state.common.quiet);
     paths = run_paths(model, input.pairs, path_options, isa, {folder.checkpoints(), resumed}, monitor);
   }
-  const bool all_reached = add_paths(result, paths, path_options.method) && ends_made;
+  const bool all_reached = add_paths(result, paths, path_options.method, mixture) && ends_made;
   result["model"] = mixture.name;
   if (const auto* soft = std::get_if<LennardJonesModel>(&model))
     result["images"] = to_string(soft->images);
+  else if (state.setup.radius_factor())
+    result["radius_factor"] = *state.setup.radius_factor();
   else if (from_files)
-    result["radius_factor"] = input.radius_factor;
+    result["radius_factor"] = std::min_element(input.pairs.begin(), input.pairs.end(), [](const auto& a, const auto& b) {
+                                return a.radius_factor < b.radius_factor;
+                              })->radius_factor;
   result["isa"] = to_string(isa);
   status = all_reached ? done : goal_not_reached;
   if (folder.exists()) write_files(folder, paths, path_options.method, mixture);

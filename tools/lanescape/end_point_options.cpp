@@ -4,6 +4,7 @@
 #include <fmt/ostream.h>
 
 #include <cmath>
+#include <map>
 
 #include "configuration/hard_sphere_model.hpp"
 #include "configuration/lattice.hpp"
@@ -137,7 +138,7 @@ void EndPointSetup::settle(const Model& model) {
   }
 }
 
-Configuration EndPointSetup::start(const Model& model, const CommonOptions& common, Isa isa) const {
+Configuration EndPointSetup::start(const Model& model, const CommonOptions& common, Isa isa) {
   resolve(model, particles_, common.seed);  // refuses options before there is work to wait for
   if (const auto* soft = std::get_if<LennardJonesModel>(&model)) {
     if (start_file_.empty()) return fcc_start(*soft, particles_, density_.value_or(1.2), common.seed);
@@ -146,11 +147,13 @@ Configuration EndPointSetup::start(const Model& model, const CommonOptions& comm
   const auto& hard = std::get<HardSphereModel>(model);
   if (!start_file_.empty()) {
     if (packing_fraction_) throw_bad_input("--packing-fraction is not allowed with --start: the file has its own");
-    return read_hard_frame(start_file_, hard, overlap_tolerance_).configuration;
+    Configuration start = read_hard_frame(start_file_, hard);
+    radius_factor_ = remove_rounding_overlaps_in(start_file_, start, overlap_tolerance_);
+    return start;
   }
   TerminalMonitor monitor(common.quiet);
-  const auto made = make_hard_sphere_start(hard, particles_, packing_fraction(), parse_start_method(start_method_.value_or("auto")),
-                                           common.seed, isa, monitor);
+  const auto made = make_hard_sphere_start(hard, particles_, packing_fraction_.value_or(0.5),
+                                           parse_start_method(start_method_.value_or("auto")), common.seed, isa, monitor);
   if (!made) throw Error(ErrorCode::goal_not_reached, "interrupted while the start was made");
   return *made;
 }
@@ -159,9 +162,13 @@ std::string pair_file_name(std::size_t number) { return fmt::format("pair-{:04}.
 
 void write_pair(OutputFolder& folder, std::size_t number, const ConfigurationPair& pair, const Mixture& model) {
   folder.write(pair_file_name(number), [&](std::ostream& out) {
-    const std::string distance = fmt::format("{}", pair.distance), steps = fmt::format("{}", pair.steps);
-    write_frame(out, pair.start, model, {{"end", "first"}, {"distance", distance}, {"steps", steps}});
-    write_frame(out, pair.finish, model, {{"end", "last"}, {"distance", distance}, {"steps", steps}});
+    std::map<std::string, std::string> info{{"distance", fmt::format("{}", pair.distance)},
+                                            {"steps", fmt::format("{}", pair.steps)}};
+    if (pair.radius_factor != 1.0) info[radius_factor_key] = fmt::format("{}", pair.radius_factor);
+    info["end"] = "first";
+    write_frame(out, pair.start, model, info);
+    info["end"] = "last";
+    write_frame(out, pair.finish, model, info);
   });
 }
 

@@ -27,15 +27,17 @@ class EndPointSetup {
   // Fills in the state point where it was not given, so that the resolved run file has it.
   void settle(const Model& model);
   // The configuration that molecular dynamics starts from: --start FILE; else an fcc crystal, or of dense hard spheres what
-  // --start-method makes of one.
-  Configuration start(const Model& model, const CommonOptions& common, Isa isa) const;
-  double packing_fraction() const { return packing_fraction_.value_or(0.5); }
+  // --start-method makes of one. Remembers the radius factor of a file.
+  Configuration start(const Model& model, const CommonOptions& common, Isa isa);
+  // By which the radii of --start FILE were scaled; nothing without such a file.
+  const std::optional<double>& radius_factor() const { return radius_factor_; }
   double overlap_tolerance() const { return overlap_tolerance_; }
 
  private:
   std::uint64_t particles_ = 108;
   std::optional<double> density_, temperature_, packing_fraction_, distance_;
   std::optional<std::string> start_method_;
+  std::optional<double> radius_factor_;
   double overlap_tolerance_ = default_overlap_tolerance;
   std::string start_file_, distance_species_;
   bool quick_ = false;
@@ -54,6 +56,8 @@ struct EndPoints {
 EndPoints make_end_points(const Model& model, const Configuration& start, const EndPointProtocol& protocol, Isa isa,
                           OutputFolder& folder, const CommonOptions& common);
 
+// In the comment line of a kept pair whose radii were scaled.
+inline constexpr const char* radius_factor_key = "radius_factor";
 // "pair-0001.extxyz"
 std::string pair_file_name(std::size_t number);
 void write_pair(OutputFolder& folder, std::size_t number, const ConfigurationPair& pair, const Mixture& model);

@@ -93,21 +93,22 @@ Configuration read_first_frame(const std::string& file, const LennardJonesModel&
   return first;
 }
 
-HardFrame read_hard_frame(const std::string& file) {
+Configuration read_hard_frame(const std::string& file) {
   ExtendedXyzReader reader(file, RadiusColumn::required);
-  Configuration first = first_of(reader);
-  return {std::move(first), reader.mixture()};
+  return first_of(reader);
 }
 
-HardFrame read_hard_frame(const std::string& file, const HardSphereModel& model, double overlap_tolerance) {
+Configuration read_hard_frame(const std::string& file, const HardSphereModel& model) {
   ExtendedXyzReader reader(file, model, RadiusColumn::required);
-  HardFrame frame{first_of(reader), model};
+  return first_of(reader);
+}
+
+double remove_rounding_overlaps_in(const std::string& file, Configuration& configuration, double tolerance) {
   try {
-    frame.radius_factor = remove_rounding_overlaps(frame.configuration, overlap_tolerance);
+    return remove_rounding_overlaps(configuration, tolerance);
   } catch (const Error& error) {
     throw Error(error.code(), fmt::format("{}: {}", file, error.what()));
   }
-  return frame;
 }
 
 OutputFolder open_folder(const CommonOptions& common) {

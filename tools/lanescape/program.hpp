@@ -134,17 +134,12 @@ struct SystemOptions {
 
 // The first frame of a file, all of which must be sound, without overlaps; throws Error(bad_input) naming the file.
 Configuration read_first_frame(const std::string& file, const LennardJonesModel& model);
-// Hard spheres of a file: the first frame, and the factor by which rounding_overlap_factor() had its radii scaled.
-struct HardFrame {
-  Configuration configuration;
-  Mixture mixture;  // the file's species
-  double radius_factor = 1.0;
-};
-// The first frame of a file, all of which must be sound, with any species and its radii as they are.
-HardFrame read_hard_frame(const std::string& file);
-// The same with the model's species, and without overlaps up to the tolerance [s_ij]; deeper ones throw Error(bad_input) naming the
-// file.
-HardFrame read_hard_frame(const std::string& file, const HardSphereModel& model, double overlap_tolerance);
+// The first frame of a file of hard spheres, all of which must be sound, with its radii as they are: with any species, or the
+// model's.
+Configuration read_hard_frame(const std::string& file);
+Configuration read_hard_frame(const std::string& file, const HardSphereModel& model);
+// remove_rounding_overlaps() of configuration/ with the file's name before what it says.
+double remove_rounding_overlaps_in(const std::string& file, Configuration& configuration, double tolerance);
 // check_separations() of interaction/ with the file's name before what it says.
 void check_separations_in(const std::string& file, const Configuration& configuration, const LennardJonesModel& model);
 
