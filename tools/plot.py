@@ -143,11 +143,11 @@ def draw_series(axes, x, y, colour, statistic=np.nanmedian, label=None, windows=
     axes.plot(x, running(y, statistic, windows), color=colour, marker=marker, label=label)
 
 
-def legend_above(axes, columns=4):
+def legend_above(axes, columns=4, handle=1.6, gap=1.4):
     """A legend between the panels, where no data can be."""
     if axes.get_legend_handles_labels()[0]:
         axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=columns, borderaxespad=0.0, borderpad=0.3,
-                    handlelength=1.6, columnspacing=1.4)
+                    handlelength=handle, columnspacing=gap)
 
 
 def letter(axes, text):
@@ -169,6 +169,11 @@ def system_parts(result, temperature, particles):
     elif temperature is not None:
         parts.append(f"$T={temperature:g}$")
     return parts + ([f"$N={particles}$"] if particles else [])
+
+
+def species_name(symbol, model):
+    """A species as its model's literature names it."""
+    return {"kob-andersen": {"Ni": "A", "P": "B"}}.get(model, {}).get(symbol, symbol)
 
 
 # ---- one path
@@ -318,14 +323,14 @@ def draw_paths(folder, paths, result, temperature):
 
 # ---- statistics over steps
 
-STEP_PANELS = (
-    ("participation_ratio", "$n/N$", False, None),
-    ("alpha_2", r"$\alpha_2$", False, None),
-    ("overlapping_partners", "overlapping partners $v$", True, None),
-    ("moved_particles", "$c/N$", False, "per particle"),
-    ("groups", "$m/N$", False, "per particle"),
+STEP_PANELS = (  # quantity, label, whether the label is per particle
+    ("participation_ratio", "$n/N$", False),
+    ("alpha_2", r"$\alpha_2$", False),
+    ("overlapping_partners", "overlapping partners $v$", False),
+    ("moved_particles", "$c/N$", True),
+    ("groups", "$m/N$", True),
 )
-GROUP_SIZES = (("group_size_few_groups", "few groups"), ("group_size_some_groups", "some"), ("group_size_many_groups", "many"))
+GROUP_SIZES = (("group_size_few_groups", "few"), ("group_size_some_groups", "some"), ("group_size_many_groups", "many"))
 
 
 def read_histograms(folder, paths):
@@ -360,7 +365,7 @@ def draw_histogram(axes, values, counts, scale, label, colour, name=None):
     axes.plot(values * scale, share, color=colour, marker="o", markersize=3, linewidth=1.2, label=f"{name or 'mean'} {mean:.3g}")
     axes.set_yscale("log")
     axes.set_xlabel(label)
-    axes.legend(loc="upper right")
+    legend_above(axes, handle=0.9, gap=0.7)
 
 
 def draw_statistics(folder, paths, result, temperature):
@@ -373,21 +378,21 @@ def draw_statistics(folder, paths, result, temperature):
     rows = -(-count // 3)
     figure, panels = plt.subplots(rows, 3, figsize=(13.0, 4.0 * rows), squeeze=False, gridspec_kw={"hspace": 0.35, "wspace": 0.28})
     flat = list(panels.flat)
-    for (quantity, label, _, per), axes in zip(shown, flat):
+    for (quantity, label, per_particle), axes in zip(shown, flat):
         values, counts = histograms[quantity]
-        draw_histogram(axes, values, counts, 1.0 / (paths[0]["particles"] or 1) if per else 1.0, label, BLUE)
+        draw_histogram(axes, values, counts, 1.0 / (paths[0]["particles"] or 1) if per_particle else 1.0, label, BLUE)
     used = len(shown)
     if sizes:
         for (quantity, name), (colour, _) in zip(sizes, PAIR_STYLES):
-            draw_histogram(flat[used], *histograms[quantity], 1.0, "group size $s$", colour, name + ": mean")
+            draw_histogram(flat[used], *histograms[quantity], 1.0, "group size $s$", colour, name)
         used += 1
     for (species, values), (colour, _) in zip(ratios.items(), PAIR_STYLES):
         values = np.array(values)
         bins = np.arange(np.floor(values.min() / 0.05) * 0.05, values.max() + 0.05, 0.05)
         flat[used].hist(values, bins=bins, density=True, histtype="step", linewidth=2.0, color=colour,
-                        label=f"{species}: width {values.std():.3f}")
-    flat[used].set_xlabel(r"$\log_{10}(g_j/\Delta R_j)$")
-    flat[used].legend(loc="upper right")
+                        label=f"{species_name(species, result.get('model'))} {values.std():.3f}")
+    flat[used].set_xlabel(r"$\log_{10}(g_j/\Delta R_j)$, and its width")
+    legend_above(flat[used])
     for axes in flat[used + 1:]:
         axes.set_visible(False)
     for row in panels:
@@ -526,9 +531,7 @@ def in_powers(value):
 
 
 def pair_label(column, model):
-    species = column.split("_")[1:]
-    if model == "kob-andersen":
-        species = [{"Ni": "A", "P": "B"}.get(name, name) for name in species]
+    species = [species_name(name, model) for name in column.split("_")[1:]]
     return "$g_{\\mathrm{" + "".join(species) + "}}$"
 
 
@@ -559,7 +562,7 @@ def draw_hard_equilibration(folder, trace, radial, result, particles):
     draw_by_phase(upper, trace["time"], trace["compressibility"], spans, VERMILLION)
     draw_by_phase(lower, trace["time"], trace["collision_rate"], spans, BLUE)
     upper.set_ylabel(r"$Z=PV/Nk_\mathrm{B}T$")
-    lower.set_ylabel("collisions per particle and time")
+    lower.set_ylabel("collision rate")
     lower.set_xlabel(r"time $t\;\;[\sigma\sqrt{m/k_\mathrm{B}T}\,]$")
     upper.set_xlim(0.0, end)
     for axes in (upper, lower):

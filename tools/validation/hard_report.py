@@ -7,6 +7,8 @@ import statistics
 import sys
 from pathlib import Path
 
+from report import mean_and_error
+
 PAIRS = 5
 PATHS = {
     "binary": ["0.05", "0.10", "0.20", "0.30", "0.40", "0.45", "0.50", "0.53", "0.55", "0.57"],
@@ -32,10 +34,8 @@ def there(folder, name):
 
 
 def cell(values, form):
-    mean = statistics.mean(values)
-    if len(values) < 2:
-        return format(mean, form)
-    return f"{mean:{form}} ± {statistics.stdev(values) / math.sqrt(len(values)):{form}}"
+    mean, error = mean_and_error(values)
+    return f"{mean:{form}}" if math.isnan(error) else f"{mean:{form}} ± {error:{form}}"
 
 
 def source_ratio(phi):
