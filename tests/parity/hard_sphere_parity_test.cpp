@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dispatch/isa.hpp"
+#include "every_isa.hpp"
 #include "reference/hard_sphere.hpp"
 #include "verification/hard_sphere_cases.hpp"
 #include "verification/hard_sphere_checks.hpp"
@@ -38,17 +39,9 @@ std::vector<HardSphereCase> small_cases() {
   return cases;
 }
 
-class HardSphereParity : public testing::TestWithParam<Isa> {
- protected:
-  void SetUp() override {
-    const auto isas = available_isas();
-    if (std::find(isas.begin(), isas.end(), GetParam()) == isas.end())
-      GTEST_SKIP() << to_string(GetParam()) << " is not compiled in or not supported by this processor";
-  }
-};
+using HardSphereParity = testing::EveryIsa;
 
-INSTANTIATE_TEST_SUITE_P(EveryIsa, HardSphereParity, testing::Values(Isa::generic, Isa::sse2, Isa::avx2, Isa::avx512),
-                         [](const auto& tested) { return to_string(tested.param); });
+INSTANTIATE_TEST_SUITE_P(EveryIsa, HardSphereParity, testing::all_isas(), testing::isa_name);
 
 TEST_P(HardSphereParity, OverlapsListsForcesAndTrialsAgreeWithTheReference) {
   for (const Deviation& deviation : verify_hard_spheres(kernel_table(GetParam()), every_case())) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "dispatch/isa.hpp"
+#include "every_isa.hpp"
 #include "interaction/lennard_jones.hpp"
 #include "verification/cases.hpp"
 #include "verification/junit.hpp"
@@ -37,17 +38,9 @@ std::vector<LennardJonesCase> small_cases() {
   return cases;
 }
 
-class LennardJonesParity : public testing::TestWithParam<Isa> {
- protected:
-  void SetUp() override {
-    const auto isas = available_isas();
-    if (std::find(isas.begin(), isas.end(), GetParam()) == isas.end())
-      GTEST_SKIP() << to_string(GetParam()) << " is not compiled in or not supported by this processor";
-  }
-};
+using LennardJonesParity = testing::EveryIsa;
 
-INSTANTIATE_TEST_SUITE_P(EveryIsa, LennardJonesParity, testing::Values(Isa::generic, Isa::sse2, Isa::avx2, Isa::avx512),
-                         [](const auto& tested) { return to_string(tested.param); });
+INSTANTIATE_TEST_SUITE_P(EveryIsa, LennardJonesParity, testing::all_isas(), testing::isa_name);
 
 TEST_P(LennardJonesParity, KernelsAgreeWithTheReferenceOnEveryCase) {
   for (const LennardJonesCase& one : every_case())

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dispatch/isa.hpp"
+#include "every_isa.hpp"
 #include "verification/kernel_checks.hpp"
 
 namespace lanescape {
@@ -13,17 +14,9 @@ namespace {
 
 using kernels::KernelTable;
 
-class VectorAlgebraParity : public testing::TestWithParam<Isa> {
- protected:
-  void SetUp() override {
-    const auto isas = available_isas();
-    if (std::find(isas.begin(), isas.end(), GetParam()) == isas.end())
-      GTEST_SKIP() << to_string(GetParam()) << " is not compiled in or not supported by this processor";
-  }
-};
+using VectorAlgebraParity = testing::EveryIsa;
 
-INSTANTIATE_TEST_SUITE_P(EveryIsa, VectorAlgebraParity, testing::Values(Isa::generic, Isa::sse2, Isa::avx2, Isa::avx512),
-                         [](const auto& tested) { return to_string(tested.param); });
+INSTANTIATE_TEST_SUITE_P(EveryIsa, VectorAlgebraParity, testing::all_isas(), testing::isa_name);
 
 TEST_P(VectorAlgebraParity, AgreesWithPlainLoopsAtEveryLength) {
   for (const Deviation& deviation : verify_vector_algebra(kernel_table(GetParam()))) {

@@ -15,9 +15,12 @@
 #include "core/random.hpp"
 #include "dynamics/contraction.hpp"
 #include "dynamics/event_driven.hpp"
+#include "refusal.hpp"
 
 namespace lanescape {
 namespace {
+
+using testing::refusal;
 
 Configuration made(const HardSphereModel& model, std::size_t particles, double packing_fraction, StartMethod method,
                    std::uint64_t seed = 1) {
@@ -28,18 +31,6 @@ Configuration made(const HardSphereModel& model, std::size_t particles, double p
     std::abort();
   }
   return *start;
-}
-
-template <class Action>
-std::string refusal(Action action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::bad_input);
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was refused";
-  return {};
 }
 
 // Calls visit(i, j, r_ij / s_ij) for every pair, nearest images.

@@ -13,9 +13,12 @@
 
 #include "configuration/lennard_jones_model.hpp"
 #include "core/error.hpp"
+#include "refusal.hpp"
 
 namespace lanescape {
 namespace {
+
+using testing::refusal;
 
 // FNV-1a over the bits of everything a start is made of.
 std::uint64_t fingerprint(const Configuration& c) {
@@ -27,18 +30,6 @@ std::uint64_t fingerprint(const Configuration& c) {
   for (const int s : c.species) take(static_cast<std::uint64_t>(s));
   for (const double x : c.positions) take(std::bit_cast<std::uint64_t>(x));
   return hash;
-}
-
-template <class Action>
-std::string refusal(Action action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::bad_input);
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was refused";
-  return {};
 }
 
 // The least r_ij / s_ij over all pairs and the 27 images around each, a sphere's own included.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "refusal.hpp"
 
 namespace lanescape {
 namespace {
@@ -19,14 +20,7 @@ Configuration row(const std::vector<double>& x, const std::vector<double>& radii
 }
 
 std::string refusal(const Configuration& configuration, double tolerance) {
-  try {
-    rounding_overlap_factor(configuration, tolerance);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::bad_input);
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was refused";
-  return {};
+  return testing::refusal([&] { rounding_overlap_factor(configuration, tolerance); });
 }
 
 TEST(RoundingOverlaps, SpheresThatTouchAreLeftAlone) {

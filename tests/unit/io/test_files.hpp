@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/error.hpp"
+#include "refusal.hpp"
 
 namespace lanescape::testing {
 
@@ -72,21 +72,6 @@ class FileSizeLimit {
 inline std::string content_of(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
-}
-
-// The message with which `action` refuses its input; a failure of the test if it does not, or not in one line.
-template <class Action>
-std::string refusal(Action action, ErrorCode code = ErrorCode::bad_input) {
-  try {
-    action();
-  } catch (const Error& error) {
-    const std::string message = error.what();
-    EXPECT_EQ(error.code(), code) << message;
-    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    return message;
-  }
-  ADD_FAILURE() << "nothing was refused";
-  return {};
 }
 
 inline void expect_contains(const std::string& message, std::string_view part) {
