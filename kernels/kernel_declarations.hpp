@@ -10,6 +10,12 @@ double lj_energy(const LjInput& in) noexcept;
 void lj_gradient(const LjInput& in, double* gradient, LjOutput& out) noexcept;
 void lj_stress(const LjInput& in, double* gradient, LjOutput& out) noexcept;
 
+double lj_list_energy(const LjListInput& in) noexcept;
+void lj_list_force(const LjListInput& in, double* gradient) noexcept;
+void lj_list_gradient(const LjListInput& in, double* gradient, LjOutput& out) noexcept;
+void lj_list_stress(const LjListInput& in, double* gradient, LjOutput& out) noexcept;
+std::size_t points_within(const PointGrid& grid, const NeighbourQuery& query, std::uint32_t* out, std::size_t capacity) noexcept;
+
 bool sphere_any_overlap(const SphereInput& in) noexcept;
 std::size_t sphere_pairs_within(const SphereInput& in, double reach, SpherePair* out, std::size_t capacity) noexcept;
 double sphere_smallest_gap(const SphereInput& in) noexcept;
@@ -31,7 +37,8 @@ void axpy(double* out, const double* x, double a, const double* u, std::size_t n
 DisplacementMoments displacement_moments(const double* a, const double* b, std::size_t slots) noexcept;
 
 void add_particle_lengths(double* lengths, const double* a, const double* b, std::size_t slots) noexcept;
-double largest_displacement_squared(const double* a, const double* b, std::size_t slots) noexcept;
+double largest_displacement_squared(const double* a, const double* b, std::size_t slots, std::size_t begin,
+                                    std::size_t end) noexcept;
 
 double peak_rounds(std::size_t rounds, double* sink) noexcept;
 

@@ -14,6 +14,16 @@ struct KernelTable {
   void (*lj_gradient)(const LjInput&, double* gradient, LjOutput&) noexcept;
   void (*lj_stress)(const LjInput&, double* gradient, LjOutput&) noexcept;
 
+  // The same over a neighbour list, for rows [0, row_count); energy and virial are these rows' share: half of each of their pairs.
+  // `gradient` gets a point per row. The four agree to the bit in what they have in common.
+  double (*lj_list_energy)(const LjListInput&) noexcept;
+  void (*lj_list_force)(const LjListInput&, double* gradient) noexcept;
+  void (*lj_list_gradient)(const LjListInput&, double* gradient, LjOutput&) noexcept;
+  void (*lj_list_stress)(const LjListInput&, double* gradient, LjOutput&) noexcept;
+  // Places of all points of a grid within reach of a position, and of some that are up to a millionth of the grid's length further,
+  // in rising order; their number, or capacity + 1 where there may be no room for all of them and a vector more.
+  std::size_t (*points_within)(const PointGrid&, const NeighbourQuery&, std::uint32_t* out, std::size_t capacity) noexcept;
+
   // Hard spheres over all pairs: whether any overlap; the pairs with r < s_ij + reach (their number, which may exceed the
   // capacity: then only so many are written); the smallest r - s_ij (infinity where there is no pair).
   bool (*sphere_any_overlap)(const SphereInput&) noexcept;
@@ -47,8 +57,9 @@ struct KernelTable {
 
   // Adds |b_j - a_j| to lengths[j] for each particle.
   void (*add_particle_lengths)(double* lengths, const double* a, const double* b, std::size_t slots) noexcept;
-  // The largest |b_j - a_j|^2 over particles, arrays of 3 x slots.
-  double (*largest_displacement_squared)(const double* a, const double* b, std::size_t slots) noexcept;
+  // The largest |b_j - a_j|^2 over slots [begin, end), multiples of slot_padding; arrays of 3 x slots.
+  double (*largest_displacement_squared)(const double* a, const double* b, std::size_t slots, std::size_t begin,
+                                         std::size_t end) noexcept;
 
   // Runs `rounds` rounds of independent fused multiply-adds (products and sums where there is no fma); returns how many
   // floating-point operations that was. Measures the machine's limit for the benchmarks.

@@ -10,12 +10,10 @@
 #include <utility>
 
 #include "kernel_declarations.hpp"
-#include "simd_ops.hpp"
+#include "lj_pair.hpp"
 
 namespace lanescape::kernels::LANESCAPE_ISA {
 namespace {
-
-#define LANESCAPE_INLINE inline __attribute__((always_inline))
 
 constexpr std::size_t row_tile = 4;  // rows that share one load and store of a column vector
 static_assert(slot_padding % row_tile == 0 && slot_padding % lanes == 0);
@@ -25,28 +23,9 @@ enum class Output { energy, gradient, stress };
 // incomplete last column vector); or a mask for each row (on the diagonal, or where rows are missing).
 enum class Masking { none, columns, rows };
 
-struct Displacement {
-  Vector x, y, z;
-};
-
-// The potential of one species pair, in the units the loop works in (box lengths if cubic, else sigma).
-struct Potential {
-  Vector c12, c6, twelve_c12, six_c6, cutoff_squared, shift;
-};
-
-// Sums over the pairs in range of r^-6, r^-12 and 1: all that energy and virial need.
-struct PowerSums {
-  Vector sixth = broadcast(0.0), twelfth = broadcast(0.0), count = broadcast(0.0);
-};
-
 struct Box {
   Displacement length;
   std::int32_t shells[3];
-};
-
-struct Totals {
-  Vector energy = broadcast(0.0), virial = broadcast(0.0);
-  Vector tensor[6] = {energy, energy, energy, energy, energy, energy};
 };
 
 // Four rows: their positions and the gradient gathered so far.
@@ -63,15 +42,11 @@ struct EdgeLimits {
   bool same_species;
 };
 
-LANESCAPE_INLINE Vector squared_length(const Displacement& d) { return multiply_add(d.z, d.z, multiply_add(d.y, d.y, d.x * d.x)); }
-
 // Adds one vector of pairs, given 1/r^2 (zero out of range), to the power sums; returns -u'(r)/r.
 LANESCAPE_INLINE Vector interact(const Potential& u, Vector inverse, Mask in_range, PowerSums& sums) {
   const Vector sixth = inverse * inverse * inverse;
-  sums.sixth += sixth;
-  sums.twelfth = multiply_add(sixth, sixth, sums.twelfth);
-  sums.count = count_up(sums.count, in_range);
-  return (multiply_add(u.twelve_c12, sixth, broadcast(0.0) - u.six_c6) * sixth) * inverse;
+  add_powers(sums, sixth, in_range);
+  return pull(u, inverse, sixth);
 }
 
 template <Output output>
@@ -80,15 +55,7 @@ LANESCAPE_INLINE void scatter(const Displacement& d, Vector w, Displacement& row
     row = {multiply_add(w, d.x, row.x), multiply_add(w, d.y, row.y), multiply_add(w, d.z, row.z)};
     column = {subtract_product(column.x, w, d.x), subtract_product(column.y, w, d.y), subtract_product(column.z, w, d.z)};
   }
-  if constexpr (output == Output::stress) {
-    const Vector wx = w * d.x, wy = w * d.y, wz = w * d.z;
-    totals.tensor[0] = multiply_add(wx, d.x, totals.tensor[0]);
-    totals.tensor[1] = multiply_add(wy, d.y, totals.tensor[1]);
-    totals.tensor[2] = multiply_add(wz, d.z, totals.tensor[2]);
-    totals.tensor[3] = multiply_add(wy, d.z, totals.tensor[3]);
-    totals.tensor[4] = multiply_add(wx, d.z, totals.tensor[4]);
-    totals.tensor[5] = multiply_add(wx, d.y, totals.tensor[5]);
-  }
+  if constexpr (output == Output::stress) add_tensor(totals, d, w);
 }
 
 // The next image after the nearest lies across one face of the box: along the axis where that lengthens r^2 least.
@@ -206,13 +173,7 @@ LANESCAPE_INLINE void tile_against_block(const LjInput& in, const SpeciesBlock& 
   loop.template operator()<Masking::rows>(limits.first_column, clear);
   loop.template operator()<Masking::none>(clear, whole);
   loop.template operator()<Masking::columns>(clear > whole ? clear : whole, padded);
-  totals.energy += multiply_add(u.c12, sums.twelfth, broadcast(0.0) - multiply_add(u.c6, sums.sixth, u.shift * sums.count));
-  totals.virial += multiply_add(u.twelve_c12, sums.twelfth, broadcast(0.0) - u.six_c6 * sums.sixth);
-}
-
-Potential broadcast_potential(const LjPair& p) {
-  return {broadcast(p.c12),  broadcast(p.c6), broadcast(12.0 * p.c12), broadcast(6.0 * p.c6), broadcast(p.cutoff_squared),
-          broadcast(p.shift)};
+  add_sums(totals, u, sums);
 }
 
 template <Output output, LengthUnit unit>

@@ -300,6 +300,51 @@ inline void gather_records(const double* base, const std::int32_t* index, Vector
 #endif
 }
 
+// x, y and z of `lanes` points (records of four doubles, 32-byte aligned); that of lane k is place[k] doubles from `base`.
+inline void gather_points(const double* base, const std::uint32_t* place, Vector& x, Vector& y, Vector& z) noexcept {
+#if defined(LANESCAPE_ISA_AVX512)
+  const auto two = [&](int k) {
+    return _mm512_mask_broadcast_f64x4(_mm512_castpd256_pd512(_mm256_load_pd(base + place[k])), 0xf0,
+                                       _mm256_load_pd(base + place[k + 2]));
+  };
+  const __m512d a = two(0), b = two(1), c = two(4), d = two(5);
+  const __m512d xz_ab = _mm512_unpacklo_pd(a, b), xz_cd = _mm512_unpacklo_pd(c, d);
+  x = _mm512_shuffle_f64x2(xz_ab, xz_cd, 0x88);
+  y = _mm512_shuffle_f64x2(_mm512_unpackhi_pd(a, b), _mm512_unpackhi_pd(c, d), 0x88);
+  z = _mm512_shuffle_f64x2(xz_ab, xz_cd, 0xdd);
+#elif defined(LANESCAPE_ISA_AVX2)
+  const auto one = [&](int k) { return _mm256_load_pd(base + place[k]); };
+  const __m256d a = one(0), b = one(1), c = one(2), d = one(3);
+  const __m256d xz_ab = _mm256_unpacklo_pd(a, b), xz_cd = _mm256_unpacklo_pd(c, d);
+  x = _mm256_permute2f128_pd(xz_ab, xz_cd, 0x20);
+  y = _mm256_permute2f128_pd(_mm256_unpackhi_pd(a, b), _mm256_unpackhi_pd(c, d), 0x20);
+  z = _mm256_permute2f128_pd(xz_ab, xz_cd, 0x31);
+#elif defined(LANESCAPE_ISA_SSE2)
+  const double *first = base + place[0], *second = base + place[1];
+  const __m128d a = _mm_load_pd(first), b = _mm_load_pd(second);
+  x = _mm_unpacklo_pd(a, b);
+  y = _mm_unpackhi_pd(a, b);
+  z = _mm_loadh_pd(_mm_load_sd(first + 2), second + 2);
+#else
+  x = lanewise([&](std::size_t k) { return base[place[k]]; });
+  y = lanewise([&](std::size_t k) { return base[place[k] + 1]; });
+  z = lanewise([&](std::size_t k) { return base[place[k] + 2]; });
+#endif
+}
+
+// Each lane without its fraction. |v| < 2^31.
+inline void store_truncated(std::int32_t* out, Vector v) noexcept {
+#if defined(LANESCAPE_ISA_AVX512)
+  _mm256_store_si256(reinterpret_cast<__m256i*>(out), _mm512_cvttpd_epi32(v));
+#elif defined(LANESCAPE_ISA_AVX2)
+  _mm_store_si128(reinterpret_cast<__m128i*>(out), _mm256_cvttpd_epi32(v));
+#elif defined(LANESCAPE_ISA_SSE2)
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(out), _mm_cvttpd_epi32(v));
+#else
+  for (std::size_t k = 0; k < lanes; ++k) out[k] = static_cast<std::int32_t>(v.lane[k]);
+#endif
+}
+
 // first, first + 1, first + 2, ...
 inline Vector count_from(double first) noexcept {
   alignas(64) static constexpr double whole[] = {0, 1, 2, 3, 4, 5, 6, 7};
@@ -370,16 +415,17 @@ inline double sum_lanes(Vector v) noexcept {
 #endif
 }
 
+#if defined(LANESCAPE_ISA_AVX512)
+inline __m256d fold_to_four(Vector v) noexcept { return _mm256_add_pd(_mm512_castpd512_pd256(v), _mm512_extractf64x4_pd(v, 1)); }
+#elif defined(LANESCAPE_ISA_AVX2)
+inline __m256d fold_to_four(Vector v) noexcept { return v; }
+#endif
+
 // Adds the lane sums of four vectors to four consecutive doubles, 32-byte aligned.
 inline void add_lane_sums(double* out, Vector a, Vector b, Vector c, Vector d) noexcept {
 #if defined(LANESCAPE_ISA_AVX512) || defined(LANESCAPE_ISA_AVX2)
-#if defined(LANESCAPE_ISA_AVX512)
-  const auto fold = [](Vector v) { return _mm256_add_pd(_mm512_castpd512_pd256(v), _mm512_extractf64x4_pd(v, 1)); };
-#else
-  const auto fold = [](Vector v) -> __m256d { return v; };
-#endif
-  const __m256d ab = _mm256_hadd_pd(fold(a), fold(b));  // a01 b01 a23 b23
-  const __m256d cd = _mm256_hadd_pd(fold(c), fold(d));
+  const __m256d ab = _mm256_hadd_pd(fold_to_four(a), fold_to_four(b));  // a01 b01 a23 b23
+  const __m256d cd = _mm256_hadd_pd(fold_to_four(c), fold_to_four(d));
   const __m256d crossed = _mm256_permute2f128_pd(ab, cd, 0x21);  // a23 b23 c01 d01
   const __m256d straight = _mm256_blend_pd(ab, cd, 0b1100);      // a01 b01 c23 d23
   _mm256_store_pd(out, _mm256_add_pd(_mm256_load_pd(out), _mm256_add_pd(crossed, straight)));
@@ -391,6 +437,21 @@ inline void add_lane_sums(double* out, Vector a, Vector b, Vector c, Vector d) n
 #endif
 }
 
+// The lane sums of three vectors and a zero to four consecutive doubles, 32-byte aligned.
+inline void store_point(double* out, Vector x, Vector y, Vector z) noexcept {
+#if defined(LANESCAPE_ISA_AVX512) || defined(LANESCAPE_ISA_AVX2)
+  const __m256d xy = _mm256_hadd_pd(fold_to_four(x), fold_to_four(y));            // x01 y01 x23 y23
+  const __m256d z0 = _mm256_hadd_pd(fold_to_four(z), _mm256_setzero_pd());        // z01 0 z23 0
+  const __m256d crossed = _mm256_permute2f128_pd(xy, z0, 0x21);                   // x23 y23 z01 0
+  _mm256_store_pd(out, _mm256_add_pd(crossed, _mm256_blend_pd(xy, z0, 0b1100)));  // x01 y01 z23 0
+#else
+  out[0] = sum_lanes(x);
+  out[1] = sum_lanes(y);
+  out[2] = sum_lanes(z);
+  out[3] = 0.0;
+#endif
+}
+
 // Single precision, for filters whose verdicts are checked again in double: coordinates as 32-bit fractions of the box, whose
 // differences wrap around as the box does.
 #if defined(LANESCAPE_ISA_AVX512)
@@ -398,6 +459,8 @@ inline void add_lane_sums(double* out, Vector a, Vector b, Vector c, Vector d) n
 using FloatVector = __m512;
 inline constexpr std::size_t float_lanes = 16;
 inline FloatVector load(const float* p) noexcept { return _mm512_load_ps(p); }
+inline FloatVector load_anywhere(const float* p) noexcept { return _mm512_loadu_ps(p); }
+inline FloatVector subtract(FloatVector a, FloatVector b) noexcept { return _mm512_sub_ps(a, b); }
 inline FloatVector broadcast_float(float s) noexcept { return _mm512_set1_ps(s); }
 inline FloatVector multiply(FloatVector a, FloatVector b) noexcept { return _mm512_mul_ps(a, b); }
 inline FloatVector add(FloatVector a, FloatVector b) noexcept { return _mm512_add_ps(a, b); }
@@ -413,6 +476,8 @@ inline std::uint32_t bits_less(FloatVector a, FloatVector b) noexcept { return _
 using FloatVector = __m256;
 inline constexpr std::size_t float_lanes = 8;
 inline FloatVector load(const float* p) noexcept { return _mm256_load_ps(p); }
+inline FloatVector load_anywhere(const float* p) noexcept { return _mm256_loadu_ps(p); }
+inline FloatVector subtract(FloatVector a, FloatVector b) noexcept { return _mm256_sub_ps(a, b); }
 inline FloatVector broadcast_float(float s) noexcept { return _mm256_set1_ps(s); }
 inline FloatVector multiply(FloatVector a, FloatVector b) noexcept { return _mm256_mul_ps(a, b); }
 inline FloatVector add(FloatVector a, FloatVector b) noexcept { return _mm256_add_ps(a, b); }
@@ -429,6 +494,8 @@ inline std::uint32_t bits_less(FloatVector a, FloatVector b) noexcept {
 using FloatVector = __m128;
 inline constexpr std::size_t float_lanes = 4;
 inline FloatVector load(const float* p) noexcept { return _mm_load_ps(p); }
+inline FloatVector load_anywhere(const float* p) noexcept { return _mm_loadu_ps(p); }
+inline FloatVector subtract(FloatVector a, FloatVector b) noexcept { return _mm_sub_ps(a, b); }
 inline FloatVector broadcast_float(float s) noexcept { return _mm_set1_ps(s); }
 inline FloatVector multiply(FloatVector a, FloatVector b) noexcept { return _mm_mul_ps(a, b); }
 inline FloatVector add(FloatVector a, FloatVector b) noexcept { return _mm_add_ps(a, b); }
@@ -455,6 +522,10 @@ inline FloatVector float_lanewise(F f) noexcept {
 inline FloatVector load(const float* p) noexcept {
   return float_lanewise([&](std::size_t k) { return p[k]; });
 }
+inline FloatVector load_anywhere(const float* p) noexcept { return load(p); }
+inline FloatVector subtract(FloatVector a, FloatVector b) noexcept {
+  return float_lanewise([&](std::size_t k) { return a.lane[k] - b.lane[k]; });
+}
 inline FloatVector broadcast_float(float s) noexcept {
   return float_lanewise([&](std::size_t) { return s; });
 }
@@ -479,6 +550,24 @@ inline std::uint32_t bits_less(FloatVector a, FloatVector b) noexcept {
 }
 
 #endif
+
+// Writes 4 (first + lane) for every lane of single precision whose bit is set, one after the other from p on; up to a whole vector
+// is overwritten. Their number.
+inline std::size_t store_set_places(std::uint32_t* p, std::uint32_t mask, std::uint32_t first) noexcept {
+#if defined(LANESCAPE_ISA_AVX512)
+  const __m512i places = _mm512_add_epi32(_mm512_set1_epi32(static_cast<std::int32_t>(4 * first)),
+                                          _mm512_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28, 32, 36, 40, 44, 48, 52, 56, 60));
+  _mm512_storeu_si512(p, _mm512_maskz_compress_epi32(static_cast<__mmask16>(mask), places));
+  return static_cast<std::size_t>(__builtin_popcount(mask));
+#else
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < float_lanes; ++k) {
+    p[count] = 4 * (first + static_cast<std::uint32_t>(k));
+    count += mask >> k & 1U;
+  }
+  return count;
+#endif
+}
 
 // Whole boxes left out, what is left of a coordinate in box lengths as a 32-bit fraction; one half wraps to minus one half.
 inline void store_fractions(std::int32_t* out, Vector box_lengths) noexcept {

@@ -71,9 +71,10 @@ void add_particle_lengths(double* lengths, const double* a, const double* b, std
     store(lengths + i, load(lengths + i) + square_root(squared_displacement(a, b, slots, i)));
 }
 
-double largest_displacement_squared(const double* a, const double* b, std::size_t slots) noexcept {
+double largest_displacement_squared(const double* a, const double* b, std::size_t slots, std::size_t begin,
+                                    std::size_t end) noexcept {
   Vector largest = broadcast(0.0);
-  for (std::size_t i = 0; i < slots; i += lanes) {
+  for (std::size_t i = begin; i < end; i += lanes) {
     largest = maximum(largest, squared_displacement(a, b, slots, i));
   }
   return largest_lane(largest);

@@ -56,6 +56,42 @@ struct LjOutput {
   double virial_tensor[6];  // sum of r_a f_b, Voigt order xx yy zz yz xz xy; written by lj_stress only
 };
 
+// Points of a neighbour list: records of point_width doubles, x y z and nothing [sigma], so that a neighbour is one load. They
+// are named by their place, in doubles.
+inline constexpr std::size_t point_width = 4;
+
+// Rows of one species and the neighbours of each, species by species. The neighbours of a row of one species start at a
+// multiple of slot_padding and end with places that are valid but not counted.
+struct NeighbourRows {
+  const double* points;
+  const std::uint32_t* rows;  // places of the rows' own points
+  std::size_t row_count;
+  const std::uint32_t* neighbours;  // places, all rows one after the other
+  const std::uint32_t* lengths;     // row_count x species_count: how many neighbours
+  std::size_t species_count;
+};
+
+struct LjListInput {
+  NeighbourRows list;
+  const LjPair* pairs;  // species_count: the rows' species with each [sigma]; `images` is not looked at
+};
+
+// Points sorted by the cells of a grid, cells running fastest along z; their coordinates in columns, in single precision: a search
+// looks a little further to make up for it.
+struct PointGrid {
+  const std::uint32_t* first;  // of each cell's points; one more at the end
+  std::size_t cells[3];
+  double low[3], edge[3];  // of the grid, of a cell [sigma]; points beyond a face are in the cells at it
+  double cells_per_length[3];
+  const float *x, *y, *z;  // of all points; 16 more than there are can be read
+};
+
+struct NeighbourQuery {
+  double position[3];
+  double reach;
+  std::uint32_t self;  // not its own neighbour
+};
+
 // Sums over the particles j of one displacement: sum |dr_j|^2 and sum |dr_j|^4.
 struct DisplacementMoments {
   double second;

@@ -57,7 +57,7 @@ void HardSphereList::renew_where_due(const AlignedArray& positions) {
   // A little less than half the skin: the displacement is rounded too.
   const double allowed = 0.499 * skin_;
   if (made_at_.empty() ||
-      !(spheres_->table().largest_displacement_squared(made_at_.data(), positions.data(), slots) <= allowed * allowed))
+      !(spheres_->table().largest_displacement_squared(made_at_.data(), positions.data(), slots, 0, slots) <= allowed * allowed))
     rebuild(positions);
 }
 

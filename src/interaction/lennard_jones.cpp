@@ -8,19 +8,13 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "interaction/lennard_jones_sums.hpp"
 
 namespace lanescape {
-namespace {
 
 using kernels::ImageSearch;
-using kernels::LengthUnit;
 
-// Shifts by more than this many boxes bring no image of a nearest separation (|d| <= L/2) within the cutoff.
-double shells(double length, double cutoff) { return std::ceil(cutoff / length - 0.5); }
-
-bool is_cubic(const Box& box) { return box.length[0] == box.length[1] && box.length[0] == box.length[2]; }
-
-}  // namespace
+double image_shells(double length, double cutoff) { return std::ceil(cutoff / length - 0.5); }
 
 ImageSearch image_search(const Box& box, double cutoff, ImageRule rule) {
   if (rule == ImageRule::minimum || 2.0 * cutoff <= box.shortest()) return ImageSearch::nearest;
@@ -63,44 +57,54 @@ void check_separations(const Configuration& configuration, const LennardJonesMod
 void check_cutoff(const LennardJonesModel& model, const Box& box) {
   if (model.images == ImageRule::minimum) return;
   const double cutoff = model.cutoff * *std::max_element(model.sigma.begin(), model.sigma.end());
-  if (shells(box.shortest(), cutoff) > max_image_shells)
+  if (image_shells(box.shortest(), cutoff) > max_image_shells)
     throw_bad_input(
         fmt::format("cutoff {} reaches over more than {} images of the box, whose shortest edge is {}: at most {} is allowed",
                     cutoff, max_image_shells, box.shortest(), (max_image_shells + 0.5) * box.shortest()));
 }
 
+bool fits_list(const LennardJonesModel& model, const Box& box, double skin) {
+  if (model.images == ImageRule::all) return true;
+  const double cutoff = model.cutoff * *std::max_element(model.sigma.begin(), model.sigma.end());
+  return 2.0 * (cutoff + skin) <= box.shortest();
+}
+
+namespace {
+
+bool takes_list(const LennardJonesModel& model, const Box& box, std::size_t particles, const PairSearchOptions& options) {
+  switch (options.search) {
+    case PairSearch::all_pairs:
+      return false;
+    case PairSearch::list:
+      if (!fits_list(model, box, options.skin))
+        throw_bad_input(
+            fmt::format("the minimum-image rule has no neighbour list in a box of shortest edge {}: at least twice the "
+                        "cutoff and the skin is needed",
+                        box.shortest()));
+      return true;
+    case PairSearch::automatic:
+      break;
+  }
+  return particles >= list_crossover && fits_list(model, box, options.skin);
+}
+
+}  // namespace
+
 LennardJones::LennardJones(const LennardJonesModel& model, const Box& box, const ParticleLayout& layout,
-                           const kernels::KernelTable& table)
-    : table_(&table), blocks_(layout.blocks()), scratch_(layout.dimension(), 0.0) {
+                           const kernels::KernelTable& table, const PairSearchOptions& options)
+    : blocks_(layout.blocks()) {
   check_cutoff(model, box);
-  const std::size_t n = model.species.size();
-  bool lattice = false;
-  for (std::size_t a = 0; a < n; ++a)
-    for (std::size_t b = 0; b < n; ++b) {
-      const double sigma = model.sigma[model.pair(a, b)], epsilon = model.epsilon[model.pair(a, b)];
-      const double cutoff = model.cutoff * sigma;
-      const double s6 = std::pow(sigma, 6), c12 = 4.0 * epsilon * s6 * s6, c6 = 4.0 * epsilon * s6;
-      const double inverse6 = std::pow(cutoff, -6);
-      const double shift = model.truncation == Truncation::shifted ? (c12 * inverse6 - c6) * inverse6 : 0.0;
-      pairs_.push_back({c12, c6, cutoff * cutoff, shift, image_search(box, cutoff, model.images)});
-      lattice = lattice || pairs_.back().images == ImageSearch::lattice;
-      if (model.images == ImageRule::all)
-        for (std::size_t axis = 0; axis < 3; ++axis)
-          input_.shells[axis] = std::max(input_.shells[axis], static_cast<std::int32_t>(shells(box.length[axis], cutoff)));
-    }
-  input_.unit = is_cubic(box) && !lattice ? LengthUnit::box : LengthUnit::sigma;
-  if (input_.unit == LengthUnit::box)
-    for (auto& pair : pairs_) {
-      pair.c12 *= std::pow(box.length[0], -12);
-      pair.c6 *= std::pow(box.length[0], -6);
-      pair.cutoff_squared /= box.length[0] * box.length[0];
-    }
-  for (std::size_t axis = 0; axis < 3; ++axis) input_.box[axis] = box.length[axis];
-  input_.slots = layout.slots();
-  input_.block_count = blocks_.size();
+  if (takes_list(model, box, layout.size(), options))
+    sums_ = std::make_unique<ListSums>(model, box, layout, table, options.skin, options.threads);
+  else
+    sums_ = std::make_unique<AllPairsSums>(model, box, layout, table);
   if (model.images == ImageRule::all) add_images_of_self(model, box);
   if (model.truncation == Truncation::tail) add_tail(model, box);
 }
+
+LennardJones::LennardJones(LennardJones&&) noexcept = default;
+LennardJones& LennardJones::operator=(LennardJones&&) noexcept = default;
+LennardJones::~LennardJones() = default;
 
 void LennardJones::add_images_of_self(const LennardJonesModel& model, const Box& box) {
   for (std::size_t s = 0; s < blocks_.size(); ++s) {
@@ -141,16 +145,6 @@ void LennardJones::add_tail(const LennardJonesModel& model, const Box& box) {
     }
 }
 
-kernels::LjInput LennardJones::input(const AlignedArray& positions) {
-  // The pointers are set at each call so that a LennardJones may be moved.
-  kernels::LjInput in = input_;
-  in.positions = positions.data();
-  in.scratch = scratch_.data();
-  in.blocks = blocks_.data();
-  in.pairs = pairs_.data();
-  return in;
-}
-
 LennardJones::Evaluation LennardJones::with_constants(const kernels::LjOutput& out) const {
   Evaluation e = constants_;
   e.energy += out.energy;
@@ -158,20 +152,29 @@ LennardJones::Evaluation LennardJones::with_constants(const kernels::LjOutput& o
   return e;
 }
 
-double LennardJones::energy(const AlignedArray& positions) { return table_->lj_energy(input(positions)) + constants_.energy; }
+double LennardJones::energy(const AlignedArray& positions) { return sums_->energy(positions) + constants_.energy; }
+
+void LennardJones::gradient(const AlignedArray& positions, AlignedArray& gradient) { sums_->gradient_only(positions, gradient); }
 
 LennardJones::Evaluation LennardJones::energy_and_gradient(const AlignedArray& positions, AlignedArray& gradient) {
   kernels::LjOutput out;
-  table_->lj_gradient(input(positions), gradient.data(), out);
+  sums_->gradient(positions, gradient, out);
   return with_constants(out);
 }
 
 LennardJones::Evaluation LennardJones::energy_and_stress(const AlignedArray& positions, AlignedArray& gradient) {
   kernels::LjOutput out;
-  table_->lj_stress(input(positions), gradient.data(), out);
+  sums_->stress(positions, gradient, out);
   Evaluation e = with_constants(out);
   for (std::size_t k = 0; k < 6; ++k) e.virial_tensor[k] += out.virial_tensor[k];
   return e;
+}
+
+void LennardJones::exchange(Archive& archive) { sums_->exchange(archive); }
+
+const NeighbourList* LennardJones::list() const {
+  const auto* sums = dynamic_cast<const ListSums*>(sums_.get());
+  return sums == nullptr ? nullptr : &sums->list();
 }
 
 }  // namespace lanescape

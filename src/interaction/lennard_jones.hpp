@@ -1,20 +1,27 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "configuration/configuration.hpp"
 #include "configuration/lennard_jones_model.hpp"
 #include "configuration/particle_layout.hpp"
 #include "core/aligned_array.hpp"
+#include "core/archive.hpp"
 #include "core/box.hpp"
 #include "kernel_table.hpp"
 
 namespace lanescape {
 
+class LennardJonesSums;
+class NeighbourList;
+
 // Which image search a cutoff needs in a box (docs/ARCHITECTURE.md, "Small boxes"); lengths in the same unit.
 kernels::ImageSearch image_search(const Box& box, double cutoff, ImageRule rule);
 
+// Shifts by more than this many boxes bring no image of a nearest separation (|d| <= L/2) within the cutoff.
+double image_shells(double length, double cutoff);
 // Largest number of periodic images per direction that the rule `all` takes part in.
 inline constexpr int max_image_shells = 8;
 // Throws Error(bad_input) where some pair's cutoff reaches further than that.
@@ -24,12 +31,33 @@ void check_cutoff(const LennardJonesModel& model, const Box& box);
 // meaning, or the coordinate that is not finite. O(N^2).
 void check_separations(const Configuration& configuration, const LennardJonesModel& model);
 
-// Energy, gradient and virial of one mixture in one box, all pairs, by the kernels of one instruction set. Holds the scratch
-// memory of an evaluation, so that each thread needs its own. Coordinates are in the layout's order.
+// How pairs are found: over all of them, or over a neighbour list; or whichever is faster, by the number of particles.
+enum class PairSearch { automatic, all_pairs, list };
+
+// Whether the image rule allows a list: `minimum` only where the nearest image of a pair cannot change while the list lasts.
+bool fits_list(const LennardJonesModel& model, const Box& box, double skin);
+
+// From so many particles on a list is faster (docs/PERFORMANCE.md).
+inline constexpr std::size_t list_crossover = 200;
+// Of a list: larger ones hold more pairs that are out of range, smaller ones are made anew more often [sigma].
+inline constexpr double default_skin = 0.3;
+
+struct PairSearchOptions {
+  PairSearch search = PairSearch::automatic;
+  int threads = 1;  // that share the rows of a list; no effect on any result
+  double skin = default_skin;
+};
+
+// Energy, gradient and virial of one mixture in one box by the kernels of one instruction set. Holds the scratch memory of an
+// evaluation and the neighbour list, so that each caller's thread needs its own. Coordinates are in the layout's order.
 class LennardJones {
  public:
-  // Throws what check_cutoff() throws.
-  LennardJones(const LennardJonesModel& model, const Box& box, const ParticleLayout& layout, const kernels::KernelTable& table);
+  // Throws what check_cutoff() throws, and Error(bad_input) where a list is asked for that the minimum-image rule does not allow.
+  LennardJones(const LennardJonesModel& model, const Box& box, const ParticleLayout& layout, const kernels::KernelTable& table,
+               const PairSearchOptions& options = {});
+  LennardJones(LennardJones&&) noexcept;
+  LennardJones& operator=(LennardJones&&) noexcept;
+  ~LennardJones();
 
   struct Evaluation {
     double energy = 0.0;                    // [epsilon]
@@ -38,21 +66,23 @@ class LennardJones {
   };
 
   double energy(const AlignedArray& positions);
+  void gradient(const AlignedArray& positions, AlignedArray& gradient);
   Evaluation energy_and_gradient(const AlignedArray& positions, AlignedArray& gradient);
   Evaluation energy_and_stress(const AlignedArray& positions, AlignedArray& gradient);
+
+  // What else than the positions the bits of a result depend on: where a list was made.
+  void exchange(Archive& archive);
+  // The list, if there is one.
+  const NeighbourList* list() const;
 
  private:
   // What does not depend on the positions: own images of a particle and long-range corrections.
   void add_images_of_self(const LennardJonesModel& model, const Box& box);
   void add_tail(const LennardJonesModel& model, const Box& box);
-  kernels::LjInput input(const AlignedArray& positions);
   Evaluation with_constants(const kernels::LjOutput& out) const;
 
-  const kernels::KernelTable* table_;
   std::vector<kernels::SpeciesBlock> blocks_;
-  std::vector<kernels::LjPair> pairs_;
-  AlignedArray scratch_;
-  kernels::LjInput input_{};
+  std::unique_ptr<LennardJonesSums> sums_;
   Evaluation constants_;
 };
 

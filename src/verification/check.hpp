@@ -25,7 +25,7 @@ inline bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(
 struct Check {
   Deviation deviation;
 
-  Check(const kernels::KernelTable& table, const char* kernel, double tolerance)
+  Check(const kernels::KernelTable& table, const std::string& kernel, double tolerance)
       : deviation{kernel, table.name, "", 0.0, tolerance, 0} {}
   void add(const std::string& name, double value) {
     ++deviation.cases;

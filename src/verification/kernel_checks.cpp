@@ -87,25 +87,33 @@ std::string describe(const Deviation& d) {
                      d.tolerance, d.cases, d.worst_case);
 }
 
-std::vector<Deviation> verify_lennard_jones(const kernels::KernelTable& table, const std::vector<LennardJonesCase>& cases) {
-  Check energy(table, "lj_energy", tolerance::lj_sums);
-  Check gradient_energy(table, "lj_gradient energy", tolerance::lj_sums),
-      gradient(table, "lj_gradient gradient", tolerance::lj_gradient),
-      gradient_virial(table, "lj_gradient virial", tolerance::lj_sums);
-  Check stress_energy(table, "lj_stress energy", tolerance::lj_sums),
-      stress_gradient(table, "lj_stress gradient", tolerance::lj_gradient),
-      stress_virial(table, "lj_stress virial", tolerance::lj_sums), tensor(table, "lj_stress tensor", tolerance::lj_sums);
-  Check energy_bits(table, "lj_energy, lj_gradient, lj_stress: same energy", tolerance::exact);
-  Check virial_bits(table, "lj_gradient, lj_stress: same virial", tolerance::exact);
+namespace {
+
+// The kernels of one way of finding pairs; `prefix` begins their names.
+std::vector<Deviation> verify_search(const kernels::KernelTable& table, const std::vector<LennardJonesCase>& cases,
+                                     PairSearch search, const std::string& prefix) {
+  const std::string with_energy = prefix + "gradient", with_tensor = prefix + "stress";
+  Check energy(table, prefix + "energy", tolerance::lj_sums);
+  Check gradient_energy(table, with_energy + " energy", tolerance::lj_sums),
+      gradient(table, with_energy + " gradient", tolerance::lj_gradient),
+      gradient_virial(table, with_energy + " virial", tolerance::lj_sums);
+  Check stress_energy(table, with_tensor + " energy", tolerance::lj_sums),
+      stress_gradient(table, with_tensor + " gradient", tolerance::lj_gradient),
+      stress_virial(table, with_tensor + " virial", tolerance::lj_sums), tensor(table, with_tensor + " tensor", tolerance::lj_sums);
+  Check energy_bits(table, fmt::format("{}energy, {}, {}: same energy", prefix, with_energy, with_tensor), tolerance::exact);
+  Check virial_bits(table, fmt::format("{}, {}: same virial", with_energy, with_tensor), tolerance::exact);
+  Check gradient_bits(table, fmt::format("{}force, {}, {}: same gradient", prefix, with_energy, with_tensor), tolerance::exact);
 
   for (const auto& [name, model, configuration] : cases) {
+    if (search == PairSearch::list && !fits_list(model, configuration.box, default_skin)) continue;
     const reference::Evaluation expected = evaluate_reference(model, configuration);
     const ParticleLayout layout(configuration.species, model.species.size());
     const AlignedArray positions = layout.to_slots(configuration.positions);
-    LennardJones interaction(model, configuration.box, layout, table);
+    LennardJones interaction(model, configuration.box, layout, table, {.search = search});
     // Whatever a kernel does not write must show.
-    AlignedArray g(layout.dimension(), std::numeric_limits<double>::quiet_NaN()), g_stress = g;
+    AlignedArray g(layout.dimension(), std::numeric_limits<double>::quiet_NaN()), g_stress = g, g_only = g;
     const double e = interaction.energy(positions);
+    interaction.gradient(positions, g_only);
     const auto with_gradient = interaction.energy_and_gradient(positions, g);
     const auto with_stress = interaction.energy_and_stress(positions, g_stress);
 
@@ -120,10 +128,24 @@ std::vector<Deviation> verify_lennard_jones(const kernels::KernelTable& table, c
     tensor.add(name, tensor_deviation(with_stress.virial_tensor, expected) / allowance);
     energy_bits.add(name, !same_bits(e, with_gradient.energy) + !same_bits(e, with_stress.energy));
     virial_bits.add(name, !same_bits(with_gradient.virial, with_stress.virial));
+    // Over all pairs there is no kernel that leaves the energy out.
+    if (search == PairSearch::list) gradient_bits.add(name, (g_only != g) + (g_stress != g));
   }
-  return {energy.deviation,        gradient_energy.deviation, gradient.deviation,      gradient_virial.deviation,
-          stress_energy.deviation, stress_gradient.deviation, stress_virial.deviation, tensor.deviation,
-          energy_bits.deviation,   virial_bits.deviation};
+  std::vector<Deviation> deviations = {
+      energy.deviation,          gradient_energy.deviation, gradient.deviation, gradient_virial.deviation, stress_energy.deviation,
+      stress_gradient.deviation, stress_virial.deviation,   tensor.deviation,   energy_bits.deviation,     virial_bits.deviation};
+  if (search == PairSearch::list) deviations.push_back(gradient_bits.deviation);
+  return deviations;
+}
+
+}  // namespace
+
+std::vector<Deviation> verify_lennard_jones(const kernels::KernelTable& table, const std::vector<LennardJonesCase>& cases) {
+  return verify_search(table, cases, PairSearch::all_pairs, "lj_");
+}
+
+std::vector<Deviation> verify_lennard_jones_lists(const kernels::KernelTable& table, const std::vector<LennardJonesCase>& cases) {
+  return verify_search(table, cases, PairSearch::list, "lj_list_");
 }
 
 std::vector<Deviation> verify_vector_algebra(const kernels::KernelTable& table) {
@@ -167,7 +189,8 @@ std::vector<Deviation> verify_vector_algebra(const kernels::KernelTable& table) 
       const long double r = std::sqrt(r2);
       worst_length = std::max(worst_length, relative(sums[i], before[i] + r, std::abs(before[i]) + r));
     }
-    largest_displacement.add(name, relative(table.largest_displacement_squared(a.data(), b.data(), slots), largest, largest));
+    largest_displacement.add(name,
+                             relative(table.largest_displacement_squared(a.data(), b.data(), slots, 0, slots), largest, largest));
     lengths.add(name, worst_length);
     const kernels::DisplacementMoments moments = table.displacement_moments(a.data(), b.data(), slots);
     second.add(name, relative(moments.second, squares.value, squares.magnitude));
@@ -208,6 +231,7 @@ std::vector<Deviation> verify_vector_algebra(const kernels::KernelTable& table) 
 std::vector<Deviation> verify_kernels(Isa isa, const std::vector<LennardJonesCase>& cases) {
   const kernels::KernelTable& table = kernel_table(isa);
   std::vector<Deviation> deviations = verify_lennard_jones(table, cases);
+  for (auto& deviation : verify_lennard_jones_lists(table, cases)) deviations.push_back(std::move(deviation));
   for (auto& deviation : verify_vector_algebra(table)) deviations.push_back(std::move(deviation));
   for (auto& deviation : verify_hard_spheres(table, hard_sphere_cases())) deviations.push_back(std::move(deviation));
   for (auto& deviation : verify_event_driven(table)) deviations.push_back(std::move(deviation));

@@ -60,8 +60,10 @@ struct Deviation {
 // One line for messages.
 std::string describe(const Deviation& deviation);
 
-// The Lennard-Jones kernels of a table against the scalar reference.
+// The Lennard-Jones kernels of a table against the scalar reference: over all pairs, and over neighbour lists where a case allows
+// one.
 std::vector<Deviation> verify_lennard_jones(const kernels::KernelTable& table, const std::vector<LennardJonesCase>& cases);
+std::vector<Deviation> verify_lennard_jones_lists(const kernels::KernelTable& table, const std::vector<LennardJonesCase>& cases);
 // The vector algebra of a table against loops in long double, at lengths that leave every remainder.
 std::vector<Deviation> verify_vector_algebra(const kernels::KernelTable& table);
 // These and those of hard_sphere_checks.hpp. Throws Error(bad_input) where the instruction set is not available.

@@ -68,10 +68,10 @@ kernels::DisplacementMoments wrong_fourth(const double* a, const double* b, std:
   return moments;
 }
 
-double wrong_largest(const double* a, const double* b, std::size_t slots) noexcept {
-  return right->largest_displacement_squared(a, b, slots) * (1.0 - 1e-15);
+double wrong_largest(const double* a, const double* b, std::size_t slots, std::size_t begin, std::size_t end) noexcept {
+  return right->largest_displacement_squared(a, b, slots, begin, end) * (1.0 - 1e-15);
 }
-double largest_second(const double* a, const double* b, std::size_t slots) noexcept {
+double largest_second(const double* a, const double* b, std::size_t slots, std::size_t, std::size_t) noexcept {
   std::vector<double> largest(slots);
   for (std::size_t i = 0; i < slots; ++i)
     for (std::size_t axis = 0; axis < 3; ++axis) largest[i] += std::pow(b[axis * slots + i] - a[axis * slots + i], 2);

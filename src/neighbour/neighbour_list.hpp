@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "configuration/particle_layout.hpp"
+#include "core/aligned_array.hpp"
+#include "core/archive.hpp"
+#include "core/box.hpp"
+#include "kernel_table.hpp"
+#include "neighbour/periodic_points.hpp"
+
+namespace lanescape {
+
+// Who is near whom: for every particle all others and their images within a cutoff and a skin, species by species. A particle's own
+// images are left out: what they do to it is a constant.
+// The list is made anew as soon as some particle is half the skin from where it was when the list was made: until then two
+// particles have come nearer by less than the skin, so that no pair within the cutoff is ever missed.
+//
+// Rows are cut into blocks of fixed size, which threads share. The list depends on the positions it was made at, and on nothing
+// else: they are what has to be archived for the same bits.
+class NeighbourList {
+ public:
+  // `cutoffs`: species x species, symmetric [sigma].
+  NeighbourList(const Box& box, const ParticleLayout& layout, const std::vector<double>& cutoffs, double skin,
+                const kernels::KernelTable& table, int threads);
+
+  // To be called before the list is used at new positions (layout's order, wrapped or not).
+  void update(const AlignedArray& positions);
+
+  std::size_t species() const { return points_.species(); }
+  std::size_t block_count() const { return blocks_.size(); }
+  std::size_t species_of(std::size_t block) const { return blocks_[block].species; }
+  kernels::NeighbourRows rows_of(std::size_t block) const;
+  // The most rows a block has.
+  static constexpr std::size_t block_rows = 32;
+  // The slot of the particle that the point at a place is, or is an image of; and of a row's.
+  std::uint32_t slot_at(std::uint32_t place) const { return points_.slot(place / kernels::point_width); }
+  std::uint32_t slot(std::size_t block, std::size_t row) const { return slot_at(blocks_[block].rows[row]); }
+  // Blocks [first_block(part), first_block(part + 1)) are about as much work for every part, one per thread.
+  std::size_t first_block(int part) const { return first_blocks_[static_cast<std::size_t>(part)]; }
+  int parts() const { return threads_; }
+
+  std::uint64_t rebuilds() const { return rebuilds_; }
+  // Neighbours over all rows, each pair from both ends, skin included.
+  std::size_t neighbours() const;
+  // Of list, points and what it takes to make them [bytes].
+  std::size_t memory() const;
+
+  // The positions the list was made at; reading makes it anew there.
+  void exchange(Archive& archive);
+
+ private:
+  struct Block {
+    std::size_t species;
+    std::vector<std::uint32_t> rows, neighbours, lengths;  // as in kernels::NeighbourRows
+  };
+  bool moved_too_far(const AlignedArray& positions) const;
+  void rebuild(const AlignedArray& positions);
+  void cut_into_blocks();
+  void fill(Block& block, std::vector<std::uint32_t>& found) const;
+  std::size_t without_own_images(std::uint32_t place, std::uint32_t* neighbours, std::size_t count) const;
+  void share_out();
+
+  const kernels::KernelTable* table_;
+  std::size_t slots_;
+  std::vector<double> reaches_;  // cutoff and skin, species x species
+  double skin_;
+  bool own_images_in_reach_;
+  int threads_;
+  PeriodicPoints points_;
+  AlignedArray made_at_;
+  std::vector<Block> blocks_;
+  std::vector<std::size_t> first_blocks_;
+  std::vector<std::vector<std::uint32_t>> scratch_;  // of each part
+  std::uint64_t rebuilds_ = 0;
+};
+
+}  // namespace lanescape

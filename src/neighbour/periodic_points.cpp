@@ -1,0 +1,185 @@
+#include "neighbour/periodic_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.hpp"
+
+namespace lanescape {
+namespace {
+
+constexpr double points_per_run = 8.0;
+// Points a search may read beyond the last.
+constexpr std::size_t read_ahead = 16;
+
+}  // namespace
+
+PeriodicPoints::PeriodicPoints(const Box& box, const ParticleLayout& layout, std::vector<double> margins, int threads)
+    : box_(box),
+      blocks_(layout.blocks()),
+      layout_slots_(layout.slots()),
+      threads_(threads),
+      grids_(margins.size()),
+      images_(static_cast<std::size_t>(threads)),
+      places_(static_cast<std::size_t>(threads)) {
+  for (std::size_t s = 0; s < margins.size(); ++s) {
+    grids_[s].margin = margins[s];
+    shape_grid(grids_[s], blocks_[s].count);
+  }
+}
+
+void PeriodicPoints::shape_grid(Grid& grid, std::size_t particles) const {
+  double volume = 1.0;
+  for (const double length : box_.length) volume *= length + 2.0 * grid.margin;
+  const double density = static_cast<double>(particles) / box_.volume();
+  // Columns as wide as a run within the margin fills a vector; flat cells, so that a run ends near where the margin does. Where
+  // particles are few, so are cells: emptiness must not cost memory.
+  const double least = std::cbrt(volume / (4.0 * density * volume + 64.0));
+  const double wide = std::clamp(std::sqrt(points_per_run / (1.6 * grid.margin * density)), grid.margin / 3.0, grid.margin);
+  const std::array<double, 3> edges = {
+      std::max(wide, least), std::max(wide, least),
+      std::max(grid.margin / 4.0, least * least * least / (std::max(wide, least) * std::max(wide, least)))};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double length = box_.length[axis] + 2.0 * grid.margin;
+    grid.shape.cells[axis] = std::max<std::size_t>(1, static_cast<std::size_t>(length / edges[axis]));
+    grid.shape.low[axis] = -grid.margin;
+    grid.shape.edge[axis] = length / static_cast<double>(grid.shape.cells[axis]);
+    grid.shape.cells_per_length[axis] = 1.0 / grid.shape.edge[axis];
+  }
+}
+
+namespace {
+
+// The cell of a coordinate along one axis, the first or last where it lies outside; the first for what is not a number.
+std::size_t cell_along(double from_low, double cells_per_length, std::size_t cells) {
+  const double cell = from_low * cells_per_length;
+  if (!(cell > 0.0)) return 0;
+  return cell < static_cast<double>(cells) ? static_cast<std::size_t>(cell) : cells - 1;
+}
+
+}  // namespace
+
+std::size_t PeriodicPoints::Grid::cell_of(const std::array<double, 3>& position) const {
+  std::size_t cell = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    cell = cell * shape.cells[axis] + cell_along(position[axis] - shape.low[axis], shape.cells_per_length[axis], shape.cells[axis]);
+  return cell;
+}
+
+void PeriodicPoints::list_images(const AlignedArray& positions, const kernels::SpeciesBlock& block, const Grid& grid,
+                                 std::size_t begin, std::size_t end, std::vector<Image>& images) const {
+  images.clear();
+  for (std::size_t slot = block.begin + begin; slot < block.begin + end; ++slot) {
+    std::array<double, 3> x{}, home{};  // position, and whole boxes that bring it into the box
+    std::array<int, 3> least{}, most{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double length = box_.length[axis];
+      x[axis] = positions[axis * layout_slots_ + slot];
+      home[axis] = -std::floor(x[axis] / length);
+      const double wrapped = x[axis] + home[axis] * length;
+      // Of coordinates that are not finite there is the particle itself and nothing else.
+      const double down = std::floor((wrapped + grid.margin) / length), up = std::floor((length + grid.margin - wrapped) / length);
+      least[axis] = down > 0.0 ? -static_cast<int>(down) : 0;
+      most[axis] = up > 0.0 ? static_cast<int>(up) : 0;
+    }
+    for (int a = least[0]; a <= most[0]; ++a)
+      for (int b = least[1]; b <= most[1]; ++b)
+        for (int c = least[2]; c <= most[2]; ++c) {
+          const std::array<double, 3> shift = {(a + home[0]) * box_.length[0], (b + home[1]) * box_.length[1],
+                                               (c + home[2]) * box_.length[2]};
+          const std::size_t cell = grid.cell_of({x[0] + shift[0], x[1] + shift[1], x[2] + shift[2]});
+          images.push_back({static_cast<std::uint32_t>(slot), static_cast<std::uint32_t>(cell), a == 0 && b == 0 && c == 0, shift});
+        }
+  }
+}
+
+void PeriodicPoints::sort(const AlignedArray& positions) {
+  slots_.clear();
+  shifts_.clear();
+  for (std::size_t s = 0; s < grids_.size(); ++s) sort_species(positions, s);
+  const std::size_t n = size();
+  points_.resize(kernels::point_width * n, 0.0);
+  refresh(positions);
+  for (auto& column : columns_) column.resize(n + read_ahead, 0.0F);
+  for_each_part(threads_, [&](int part) {
+    for (std::size_t k = part_begin(n, part, threads_); k < part_begin(n, part + 1, threads_); ++k)
+      for (std::size_t axis = 0; axis < 3; ++axis) columns_[axis][k] = static_cast<float>(points_[kernels::point_width * k + axis]);
+  });
+}
+
+// A counting sort: each part counts its own particles' images per cell, and puts them behind those of the parts before it.
+void PeriodicPoints::sort_species(const AlignedArray& positions, std::size_t species) {
+  Grid& grid = grids_[species];
+  const std::size_t cell_count = grid.shape.cells[0] * grid.shape.cells[1] * grid.shape.cells[2];
+  const kernels::SpeciesBlock& block = blocks_[species];
+  for_each_part(threads_, [&](int part) {
+    const auto p = static_cast<std::size_t>(part);
+    list_images(positions, block, grid, part_begin(block.count, part, threads_), part_begin(block.count, part + 1, threads_),
+                images_[p]);
+    places_[p].assign(cell_count, 0);
+    for (const Image& image : images_[p]) ++places_[p][image.cell];
+  });
+  const std::size_t base = slots_.size();
+  std::size_t next = base;
+  grid.first.resize(cell_count + 1);
+  for (std::size_t cell = 0; cell < cell_count; ++cell) {
+    grid.first[cell] = static_cast<std::uint32_t>(next);
+    for (auto& places : places_) {
+      const std::uint32_t count = places[cell];
+      places[cell] = static_cast<std::uint32_t>(next);
+      next += count;
+    }
+  }
+  grid.first[cell_count] = static_cast<std::uint32_t>(next);
+  slots_.resize(next);
+  shifts_.resize(next);
+  std::vector<std::uint8_t> own(next - base);
+  for_each_part(threads_, [&](int part) {
+    const auto p = static_cast<std::size_t>(part);
+    for (const Image& image : images_[p]) {
+      const std::uint32_t place = places_[p][image.cell]++;
+      slots_[place] = image.slot;
+      shifts_[place] = image.shift;
+      own[place - base] = image.own;
+    }
+  });
+  grid.rows.clear();
+  for (std::size_t k = base; k < next; ++k)
+    if (own[k - base]) grid.rows.push_back(static_cast<std::uint32_t>(k));
+}
+
+void PeriodicPoints::refresh(const AlignedArray& positions) {
+  const std::size_t n = size();
+  for_each_part(threads_, [&](int part) {
+    const double *x = positions.data(), *y = x + layout_slots_, *z = y + layout_slots_;
+    for (std::size_t k = part_begin(n, part, threads_); k < part_begin(n, part + 1, threads_); ++k) {
+      double* point = points_.data() + kernels::point_width * k;
+      const std::size_t slot = slots_[k];
+      const std::array<double, 3>& shift = shifts_[k];
+      point[0] = x[slot] + shift[0];
+      point[1] = y[slot] + shift[1];
+      point[2] = z[slot] + shift[2];
+    }
+  });
+}
+
+kernels::PointGrid PeriodicPoints::grid(std::size_t species) const {
+  kernels::PointGrid view = grids_[species].shape;
+  view.first = grids_[species].first.data();
+  view.x = columns_[0].data();
+  view.y = columns_[1].data();
+  view.z = columns_[2].data();
+  return view;
+}
+
+std::size_t PeriodicPoints::memory() const {
+  std::size_t bytes =
+      points_.capacity() * sizeof(double) + slots_.capacity() * sizeof(std::uint32_t) + shifts_.capacity() * sizeof(shifts_[0]);
+  for (const auto& column : columns_) bytes += column.capacity() * sizeof(float);
+  for (const auto& images : images_) bytes += images.capacity() * sizeof(Image);
+  for (const auto& places : places_) bytes += places.capacity() * sizeof(std::uint32_t);
+  for (const Grid& grid : grids_) bytes += (grid.first.capacity() + grid.rows.capacity()) * sizeof(std::uint32_t);
+  return bytes;
+}
+
+}  // namespace lanescape

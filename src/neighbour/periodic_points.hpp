@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "configuration/particle_layout.hpp"
+#include "core/aligned_array.hpp"
+#include "core/box.hpp"
+#include "views.hpp"
+
+namespace lanescape {
+
+// The particles of a box and those of their periodic images that lie within a margin of it, as points: species by species, and
+// within a species by the cells of a grid over box and margin, so that points near in space are near in memory. With images as
+// points of their own, separations are plain differences and the box may be of any size, down to a fraction of the margin.
+//
+// Cells run fastest along z: the points of neighbouring cells of one column are one run. The order depends on the positions
+// alone, not on the number of threads.
+class PeriodicPoints {
+ public:
+  // `margins`: for each species, how far from the box its images matter [sigma].
+  PeriodicPoints(const Box& box, const ParticleLayout& layout, std::vector<double> margins, int threads);
+
+  // Takes positions (layout's order, wrapped or not) and sorts. O(N).
+  void sort(const AlignedArray& positions);
+  // The same points at positions that have moved since.
+  void refresh(const AlignedArray& positions);
+
+  std::size_t species() const { return grids_.size(); }
+  std::size_t size() const { return slots_.size(); }
+  // Records of kernels::point_width doubles.
+  const double* points() const { return points_.data(); }
+  const double* point(std::size_t k) const { return points_.data() + kernels::point_width * k; }
+  // The slot of the particle that a point is, or is an image of.
+  std::uint32_t slot(std::size_t k) const { return slots_[k]; }
+  // What was added to that particle's position: whole boxes [sigma].
+  std::array<double, 3> shift(std::size_t k) const { return shifts_[k]; }
+  // The points of a species that are in the box, one for each particle, in the order of points.
+  const std::vector<std::uint32_t>& rows(std::size_t species) const { return grids_[species].rows; }
+
+  // A species' points as they were sorted, for kernels::KernelTable::points_within.
+  kernels::PointGrid grid(std::size_t species) const;
+  std::size_t memory() const;  // [bytes]
+
+ private:
+  struct Grid {
+    double margin = 0.0;
+    kernels::PointGrid shape{};        // its pointers are set when it is handed out
+    std::vector<std::uint32_t> first;  // of each cell's points; one more at the end
+    std::vector<std::uint32_t> rows;
+    std::size_t cell_of(const std::array<double, 3>& position) const;
+  };
+  struct Image {
+    std::uint32_t slot, cell;
+    bool own;  // the particle itself
+    std::array<double, 3> shift;
+  };
+
+  void shape_grid(Grid& grid, std::size_t particles) const;
+  void list_images(const AlignedArray& positions, const kernels::SpeciesBlock& block, const Grid& grid, std::size_t begin,
+                   std::size_t end, std::vector<Image>& images) const;
+  void sort_species(const AlignedArray& positions, std::size_t species);
+
+  Box box_;
+  std::vector<kernels::SpeciesBlock> blocks_;
+  std::size_t layout_slots_;
+  int threads_;
+  std::vector<Grid> grids_;
+  AlignedArray points_;
+  std::vector<std::uint32_t> slots_;
+  std::vector<std::array<double, 3>> shifts_;
+  std::array<std::vector<float>, 3> columns_;
+  // Of a sort, kept for their memory.
+  std::vector<std::vector<Image>> images_;
+  std::vector<std::vector<std::uint32_t>> places_;
+};
+
+}  // namespace lanescape

@@ -1,0 +1,212 @@
+#include "neighbour/neighbour_list.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <random>
+#include <tuple>
+#include <vector>
+
+#include "every_isa.hpp"
+
+namespace lanescape {
+namespace {
+
+struct Fluid {
+  Box box;
+  std::vector<int> species;
+  std::vector<double> positions;
+};
+
+// Particles at random, some of them boxes away from the box.
+Fluid random_fluid(const std::array<double, 3>& length, std::size_t particles, std::size_t species, unsigned seed) {
+  std::mt19937_64 engine(seed);
+  std::uniform_real_distribution<double> place(-1.5, 2.5);
+  Fluid fluid{{length}, {}, {}};
+  for (std::size_t i = 0; i < particles; ++i) {
+    fluid.species.push_back(static_cast<int>(i % species));
+    for (const double edge : length) fluid.positions.push_back(edge * place(engine));
+  }
+  return fluid;
+}
+
+const std::vector<double> cutoffs = {1.5, 1.2, 1.2, 0.9};  // of two species
+
+// A neighbour as seen from a row: the neighbour's particle and the separation, in units that rounding does not reach.
+using Neighbour = std::tuple<std::size_t, long, long, long>;
+using Neighbours = std::vector<std::vector<Neighbour>>;  // by particle, sorted
+
+Neighbour neighbour(std::size_t particle, const std::array<double, 3>& d) {
+  return {particle, std::lround(d[0] * 1e6), std::lround(d[1] * 1e6), std::lround(d[2] * 1e6)};
+}
+
+// Every image of every other particle within the cutoff, looked for among all of them.
+Neighbours by_force(const Fluid& fluid, const std::vector<double>& cutoffs_of_pairs, std::size_t species) {
+  const std::size_t n = fluid.species.size();
+  Neighbours found(n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) {
+      if (i == j) continue;
+      const double cutoff =
+          cutoffs_of_pairs[static_cast<std::size_t>(fluid.species[i]) * species + static_cast<std::size_t>(fluid.species[j])];
+      std::array<double, 3> nearest{};
+      std::array<int, 3> shells{};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        nearest[axis] = fluid.box.nearest_image(axis, fluid.positions[3 * j + axis] - fluid.positions[3 * i + axis]);
+        shells[axis] = static_cast<int>(std::ceil(cutoff / fluid.box.length[axis]));
+      }
+      for (int a = -shells[0]; a <= shells[0]; ++a)
+        for (int b = -shells[1]; b <= shells[1]; ++b)
+          for (int c = -shells[2]; c <= shells[2]; ++c) {
+            const std::array<double, 3> d = {nearest[0] + a * fluid.box.length[0], nearest[1] + b * fluid.box.length[1],
+                                             nearest[2] + c * fluid.box.length[2]};
+            if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < cutoff * cutoff) found[i].push_back(neighbour(j, d));
+          }
+    }
+  for (auto& neighbours : found) std::sort(neighbours.begin(), neighbours.end());
+  return found;
+}
+
+// The list's neighbours within `cutoffs_of_pairs`, or all of them where that is empty.
+Neighbours of_list(const NeighbourList& list, const ParticleLayout& layout, const std::vector<double>& cutoffs_of_pairs) {
+  std::map<std::size_t, std::size_t> particle_in;
+  for (std::size_t i = 0; i < layout.size(); ++i) particle_in[layout.slot_of(i)] = i;
+  Neighbours found(layout.size());
+  for (std::size_t b = 0; b < list.block_count(); ++b) {
+    const kernels::NeighbourRows rows = list.rows_of(b);
+    const std::uint32_t* place = rows.neighbours;
+    for (std::size_t k = 0; k < rows.row_count; ++k)
+      for (std::size_t s = 0; s < rows.species_count; ++s) {
+        const std::uint32_t count = rows.lengths[k * rows.species_count + s];
+        for (std::uint32_t j = 0; j < count; ++j) {
+          const double *self = rows.points + rows.rows[k], *other = rows.points + place[j];
+          const std::array<double, 3> d = {other[0] - self[0], other[1] - self[1], other[2] - self[2]};
+          const double cutoff = cutoffs_of_pairs.empty() ? 1e9 : cutoffs_of_pairs[list.species_of(b) * rows.species_count + s];
+          if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < cutoff * cutoff)
+            found[particle_in.at(list.slot(b, k))].push_back(neighbour(particle_in.at(list.slot_at(place[j])), d));
+        }
+        place += (count + kernels::slot_padding - 1) / kernels::slot_padding * kernels::slot_padding;
+      }
+  }
+  for (auto& neighbours : found) std::sort(neighbours.begin(), neighbours.end());
+  return found;
+}
+
+NeighbourList make_list(const Fluid& fluid, const ParticleLayout& layout, double skin, Isa isa, int threads = 1) {
+  return NeighbourList(fluid.box, layout, cutoffs, skin, kernel_table(isa), threads);
+}
+
+using NeighbourListOnEveryIsa = testing::EveryIsa;
+
+INSTANTIATE_TEST_SUITE_P(EveryIsa, NeighbourListOnEveryIsa, testing::all_isas(), testing::isa_name);
+
+// Large boxes, boxes of one cell, of less than the cutoff, of every shape; from nothing to many particles in one cell.
+TEST_P(NeighbourListOnEveryIsa, HoldsEveryImageWithinTheCutoffInBoxesOfEverySize) {
+  const std::vector<std::array<double, 3>> boxes = {{9.0, 9.0, 9.0}, {7.0, 5.5, 8.2},  {3.1, 3.0, 2.9}, {1.0, 1.1, 0.9},
+                                                    {0.7, 0.6, 6.0}, {12.0, 0.8, 5.0}, {1.5, 1.5, 1.5}};
+  unsigned seed = 0;
+  for (const auto& box : boxes)
+    for (const std::size_t particles : {0U, 1U, 2U, 3U, 17U, 64U, 301U}) {
+      const Fluid fluid = random_fluid(box, particles, 2, ++seed);
+      const ParticleLayout layout(fluid.species, 2);
+      NeighbourList list = make_list(fluid, layout, 0.2, GetParam());
+      list.update(layout.to_slots(fluid.positions));
+      EXPECT_EQ(of_list(list, layout, cutoffs), by_force(fluid, cutoffs, 2))
+          << particles << " particles in a box of " << box[0] << " x " << box[1] << " x " << box[2];
+    }
+}
+
+TEST_P(NeighbourListOnEveryIsa, MissesNoPairWhileParticlesWander) {
+  Fluid fluid = random_fluid({6.0, 5.0, 4.0}, 200, 2, 7);
+  const ParticleLayout layout(fluid.species, 2);
+  NeighbourList list = make_list(fluid, layout, 0.3, GetParam());
+  std::mt19937_64 engine(3);
+  std::uniform_real_distribution<double> move(-0.04, 0.04);
+  for (int step = 0; step < 60; ++step) {
+    for (double& x : fluid.positions) x += move(engine);
+    list.update(layout.to_slots(fluid.positions));
+    ASSERT_EQ(of_list(list, layout, cutoffs), by_force(fluid, cutoffs, 2)) << "step " << step;
+  }
+  EXPECT_GT(list.rebuilds(), 3U);
+  EXPECT_LT(list.rebuilds(), 40U);
+}
+
+// Two particles that fly at each other: the most that a pair can gain on the list.
+TEST(NeighbourList, IsMadeAnewBeforeTwoParticlesCanHaveComeIntoRangeUnseen) {
+  Fluid fluid{{{20.0, 20.0, 20.0}}, {0, 0}, {5.0, 5.0, 5.0, 5.0 + 1.5 + 0.3 + 1e-3, 5.0, 5.0}};
+  const ParticleLayout layout(fluid.species, 2);
+  NeighbourList list = make_list(fluid, layout, 0.3, available_isas().back());
+  list.update(layout.to_slots(fluid.positions));
+  EXPECT_EQ(list.neighbours(), 0U);
+  for (int step = 0; step < 400; ++step) {
+    fluid.positions[0] += 1e-3;
+    fluid.positions[3] -= 1e-3;
+    list.update(layout.to_slots(fluid.positions));
+    EXPECT_EQ(of_list(list, layout, cutoffs), by_force(fluid, cutoffs, 2)) << "step " << step;
+  }
+  EXPECT_LE(list.rebuilds(), 4U);
+}
+
+TEST(NeighbourList, IsTheSameWhateverTheNumberOfThreads) {
+  for (const std::size_t particles : {1U, 40U, 700U}) {
+    const Fluid fluid = random_fluid({8.0, 6.0, 7.0}, particles, 2, 11);
+    const ParticleLayout layout(fluid.species, 2);
+    const AlignedArray positions = layout.to_slots(fluid.positions);
+    NeighbourList one = make_list(fluid, layout, 0.3, available_isas().back());
+    one.update(positions);
+    for (const int threads : {2, 3, 7}) {
+      NeighbourList many = make_list(fluid, layout, 0.3, available_isas().back(), threads);
+      many.update(positions);
+      ASSERT_EQ(many.block_count(), one.block_count());
+      for (std::size_t b = 0; b < one.block_count(); ++b) {
+        const kernels::NeighbourRows x = one.rows_of(b), y = many.rows_of(b);
+        ASSERT_EQ(x.row_count, y.row_count);
+        EXPECT_TRUE(std::equal(x.rows, x.rows + x.row_count, y.rows));
+        const std::size_t segments = x.row_count * x.species_count;
+        ASSERT_TRUE(std::equal(x.lengths, x.lengths + segments, y.lengths));
+        std::size_t places = 0;
+        for (std::size_t k = 0; k < segments; ++k) places += (x.lengths[k] + 7) / 8 * 8;
+        EXPECT_TRUE(std::equal(x.neighbours, x.neighbours + places, y.neighbours));
+      }
+      // Every block has one part that does it.
+      EXPECT_EQ(many.first_block(0), 0U);
+      EXPECT_EQ(many.first_block(threads), many.block_count());
+      for (int part = 0; part < threads; ++part) EXPECT_LE(many.first_block(part), many.first_block(part + 1));
+    }
+  }
+}
+
+TEST(NeighbourList, HasAnEvenShareForEveryPart) {
+  const Fluid fluid = random_fluid({14.0, 14.0, 14.0}, 4000, 2, 13);
+  const ParticleLayout layout(fluid.species, 2);
+  NeighbourList list = make_list(fluid, layout, 0.3, available_isas().back(), 4);
+  list.update(layout.to_slots(fluid.positions));
+  const auto work = [&](int part) {
+    std::size_t vectors = 0;
+    for (std::size_t b = list.first_block(part); b < list.first_block(part + 1); ++b) {
+      const kernels::NeighbourRows rows = list.rows_of(b);
+      for (std::size_t k = 0; k < rows.row_count * rows.species_count; ++k) vectors += (rows.lengths[k] + 7) / 8;
+    }
+    return static_cast<double>(vectors);
+  };
+  const double share = (work(0) + work(1) + work(2) + work(3)) / 4.0;
+  for (int part = 0; part < 4; ++part) EXPECT_NEAR(work(part), share, 0.05 * share) << part;
+}
+
+TEST(NeighbourList, SurvivesCoordinatesThatAreNotNumbers) {
+  Fluid fluid = random_fluid({5.0, 5.0, 5.0}, 50, 2, 17);
+  const ParticleLayout layout(fluid.species, 2);
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), -1e300}) {
+    fluid.positions[30] = bad;
+    NeighbourList list = make_list(fluid, layout, 0.3, available_isas().back());
+    list.update(layout.to_slots(fluid.positions));
+    EXPECT_GT(list.neighbours(), 0U) << bad;
+  }
+}
+
+}  // namespace
+}  // namespace lanescape
