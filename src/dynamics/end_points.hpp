@@ -30,6 +30,7 @@ struct EndPointOptions {
   std::uint64_t between_steps = 100'000;  // between pairs
   std::uint64_t max_pair_steps = 1'000'000'000;
   std::uint64_t seed = 1;
+  int threads = 1;  // of one evaluation; no effect on any result
 
   // The same protocol with counts small enough to try things out.
   void make_quick();

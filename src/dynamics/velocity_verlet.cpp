@@ -76,9 +76,15 @@ void VelocityVerlet::kick(double time) {
 void VelocityVerlet::step() {
   kick(0.5 * time_step_);
   landscape_->algebra().axpy(position_, position_, time_step_, velocity_);
-  potential_ = landscape_->energy_and_gradient(position_, gradient_);
+  landscape_->gradient(position_, gradient_);
+  potential_.reset();
   kick(0.5 * time_step_);
   ++steps_;
+}
+
+double VelocityVerlet::potential_energy() {
+  if (!potential_) potential_ = landscape_->energy(position_);
+  return *potential_;
 }
 
 double VelocityVerlet::kinetic_energy() const {
@@ -98,6 +104,7 @@ void VelocityVerlet::exchange(Archive& archive) {
   archive.field("position", position_);
   archive.field("velocity", velocity_);
   archive.field("steps", steps_);
+  landscape_->exchange(archive);
   if (archive.reading()) potential_ = landscape_->energy_and_gradient(position_, gradient_);
 }
 

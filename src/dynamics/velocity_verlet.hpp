@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "configuration/mixture.hpp"
@@ -26,7 +27,7 @@ class VelocityVerlet {
 
   double temperature() const;     // 2 K / (3 N)
   double kinetic_energy() const;  // [epsilon]
-  double potential_energy() const { return potential_; }
+  double potential_energy();      // an evaluation of its own where the step had no need of it
   std::uint64_t steps() const { return steps_; }
   double time_step() const { return time_step_; }
   const AlignedArray& position() const { return position_; }
@@ -51,7 +52,7 @@ class VelocityVerlet {
   std::vector<double> masses_;  // per species block
   AlignedArray position_, velocity_, gradient_;
   double time_step_;
-  double potential_ = 0.0;
+  std::optional<double> potential_;  // at the present position, where it is known
   std::uint64_t steps_ = 0;
 };
 

@@ -88,6 +88,13 @@ bool takes_list(const LennardJonesModel& model, const Box& box, std::size_t part
   return particles >= list_crossover && fits_list(model, box, options.skin);
 }
 
+// Threads wait for one another some microseconds per evaluation: what fewer rows than this take one alone.
+constexpr std::size_t rows_per_thread = 128;
+
+int useful_threads(std::size_t particles, int wanted) {
+  return std::clamp(static_cast<int>(std::min<std::size_t>(particles / rows_per_thread, 4096)), 1, wanted);
+}
+
 }  // namespace
 
 LennardJones::LennardJones(const LennardJonesModel& model, const Box& box, const ParticleLayout& layout,
@@ -95,7 +102,7 @@ LennardJones::LennardJones(const LennardJonesModel& model, const Box& box, const
     : blocks_(layout.blocks()) {
   check_cutoff(model, box);
   if (takes_list(model, box, layout.size(), options))
-    sums_ = std::make_unique<ListSums>(model, box, layout, table, options.skin, options.threads);
+    sums_ = std::make_unique<ListSums>(model, box, layout, table, options.skin, useful_threads(layout.size(), options.threads));
   else
     sums_ = std::make_unique<AllPairsSums>(model, box, layout, table);
   if (model.images == ImageRule::all) add_images_of_self(model, box);

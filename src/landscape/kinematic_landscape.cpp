@@ -44,4 +44,9 @@ double KinematicLandscape::energy_and_gradient(const AlignedArray& q, AlignedArr
   return v;
 }
 
+void KinematicLandscape::gradient(const AlignedArray& q, AlignedArray& gradient) {
+  inner_->gradient(position_of(q), gradient);
+  metric_.gradient_to_kinematic(gradient);
+}
+
 }  // namespace lanescape

@@ -35,6 +35,8 @@ class KinematicLandscape final : public SoftLandscape {
   const VectorAlgebra& algebra() const override { return inner_->algebra(); }
   double energy(const AlignedArray& position) override;
   double energy_and_gradient(const AlignedArray& position, AlignedArray& gradient) override;
+  void gradient(const AlignedArray& position, AlignedArray& gradient) override;
+  void exchange(Archive& archive) override { inner_->exchange(archive); }
 
  private:
   const AlignedArray& position_of(const AlignedArray& q);

@@ -2,11 +2,12 @@
 
 namespace lanescape {
 
-LennardJonesLandscape::LennardJonesLandscape(const LennardJonesModel& model, const Box& box, const ParticleLayout& layout, Isa isa)
+LennardJonesLandscape::LennardJonesLandscape(const LennardJonesModel& model, const Box& box, const ParticleLayout& layout, Isa isa,
+                                             const PairSearchOptions& options)
     : dimension_(layout.dimension()),
       particles_(layout.size()),
       algebra_(kernel_table(isa)),
-      interaction_(model, box, layout, kernel_table(isa)) {}
+      interaction_(model, box, layout, kernel_table(isa), options) {}
 
 double LennardJonesLandscape::energy_and_gradient(const AlignedArray& position, AlignedArray& gradient) {
   return interaction_.energy_and_gradient(position, gradient).energy;

@@ -9,13 +9,21 @@ namespace lanescape {
 // The landscape of a Lennard-Jones mixture in a fixed box, R in the layout's order.
 class LennardJonesLandscape final : public SoftLandscape {
  public:
-  LennardJonesLandscape(const LennardJonesModel& model, const Box& box, const ParticleLayout& layout, Isa isa);
+  LennardJonesLandscape(const LennardJonesModel& model, const Box& box, const ParticleLayout& layout, Isa isa,
+                        const PairSearchOptions& options = {});
 
   std::size_t dimension() const override { return dimension_; }
   std::size_t particles() const override { return particles_; }
   const VectorAlgebra& algebra() const override { return algebra_; }
   double energy(const AlignedArray& position) override { return interaction_.energy(position); }
   double energy_and_gradient(const AlignedArray& position, AlignedArray& gradient) override;
+  void gradient(const AlignedArray& position, AlignedArray& gradient) override { interaction_.gradient(position, gradient); }
+  void exchange(Archive& archive) override { interaction_.exchange(archive); }
+
+  // sum r.f [epsilon]; overwrites `gradient`.
+  double virial(const AlignedArray& position, AlignedArray& gradient) {
+    return interaction_.energy_and_gradient(position, gradient).virial;
+  }
 
  private:
   std::size_t dimension_, particles_;

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "core/aligned_array.hpp"
+#include "core/archive.hpp"
 #include "dispatch/vector_algebra.hpp"
 
 namespace lanescape {
@@ -22,6 +23,12 @@ class SoftLandscape {
   virtual double energy(const AlignedArray& position) = 0;
   // V(R) and grad V(R) [epsilon/sigma].
   virtual double energy_and_gradient(const AlignedArray& position, AlignedArray& gradient) = 0;
+  // The same grad V(R), to the bit, for who does not need V.
+  virtual void gradient(const AlignedArray& position, AlignedArray& gradient) { energy_and_gradient(position, gradient); }
+
+  // What else than R the bits of V depend on, such as where a neighbour list was made. Part of the state of whatever moves on this
+  // landscape.
+  virtual void exchange(Archive&) {}
 };
 
 }  // namespace lanescape

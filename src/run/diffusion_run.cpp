@@ -86,8 +86,7 @@ class SoftSource {
       : layout_(&layout),
         options_(&options),
         volume_(start.box.volume()),
-        landscape_(model, start.box, layout, isa),
-        interaction_(model, start.box, layout, kernel_table(isa)),
+        landscape_(model, start.box, layout, isa, {.threads = options.equilibration.threads}),
         generator_(landscape_, model, layout, layout.to_slots(start.positions), options.equilibration),
         gradient_(layout.dimension(), 0.0),
         steps_per_record_(static_cast<std::uint64_t>(std::lround(options.window.interval / options.equilibration.time_step))) {}
@@ -107,9 +106,7 @@ class SoftSource {
     if (recorded_++ % records_per_virial == 0) {
       const double t = verlet.temperature();
       temperature_ += t;
-      pressure_ +=
-          (static_cast<double>(layout_->size()) * t + interaction_.energy_and_gradient(verlet.position(), gradient_).virial / 3.0) /
-          volume_;
+      pressure_ += (static_cast<double>(layout_->size()) * t + landscape_.virial(verlet.position(), gradient_) / 3.0) / volume_;
       ++samples_;
     }
     record.record(verlet.velocity(), verlet.position());
@@ -136,7 +133,6 @@ class SoftSource {
   const DiffusionRunOptions* options_;
   double volume_;
   LennardJonesLandscape landscape_;
-  LennardJones interaction_;
   EndPointGenerator generator_;
   AlignedArray gradient_;
   std::uint64_t steps_per_record_, recorded_ = 0, samples_ = 0;

@@ -28,10 +28,13 @@ using Clock = std::chrono::steady_clock;
 // Steps between looks at the outside world, and between checkpoints: about 3 ms and 2 s, hard spheres 1 ms and 1 s.
 std::uint64_t steps_per_chunk(std::size_t particles) { return std::clamp<std::uint64_t>(30'000 / (particles + 1), 1, 1000); }
 constexpr std::uint64_t chunks_per_checkpoint = 700;
+constexpr double path_skin = 0.15;  // [sigma]; docs/PERFORMANCE.md
 
 std::unique_ptr<SoftLandscape> make_landscape(const LennardJonesModel& model, const Box& box, const ParticleLayout& layout, Isa isa,
-                                              const KinematicMetric& metric) {
-  std::unique_ptr<SoftLandscape> landscape = std::make_unique<LennardJonesLandscape>(model, box, layout, isa);
+                                              const KinematicMetric& metric, int threads) {
+  // A path's particles hardly move from one step to the next: a thin skin is worth more than rare lists.
+  std::unique_ptr<SoftLandscape> landscape =
+      std::make_unique<LennardJonesLandscape>(model, box, layout, isa, PairSearchOptions{.threads = threads, .skin = path_skin});
   if (metric.is_euclidean()) return landscape;
   return std::make_unique<KinematicLandscape>(std::move(landscape), metric);
 }
@@ -67,7 +70,7 @@ PreparedPair prepare(const Model& model, const ConfigurationPair& pair, std::siz
       throw_bad_input(fmt::format("{}: hard spheres of unequal masses have no path yet: equal masses are needed", where));
     return prepared;
   }
-  const auto landscape = make_landscape(*soft, pair.start.box, prepared.layout, isa, prepared.metric);
+  const auto landscape = make_landscape(*soft, pair.start.box, prepared.layout, isa, prepared.metric, options.threads);
   const double highest_end = std::max(landscape->energy(prepared.start), landscape->energy(prepared.goal));
   prepared.landscape_energy = options.landscape_energy.value_or(highest_end);
   if (!(highest_end <= prepared.landscape_energy))
@@ -168,6 +171,9 @@ struct Run {
     for (std::size_t k = 0; k < pairs.size(); ++k) prepared.push_back(prepare(model, pairs[k], k, options, isa));
   }
 
+  // One level of threads: many paths at once, or the evaluations of one.
+  int threads_per_path() const { return pairs.size() == 1 ? options.threads : 1; }
+
   void report(std::size_t number, double part) {
     covered[number] = part;
     double sum = 0.0;
@@ -183,8 +189,8 @@ struct Walk {
   Stepper stepper;
 
   Walk(const Run& run, const ConfigurationPair& pair, const PreparedPair& prepared, const AlignedArray&)
-      : landscape(
-            make_landscape(std::get<LennardJonesModel>(run.model), pair.start.box, prepared.layout, run.isa, prepared.metric)),
+      : landscape(make_landscape(std::get<LennardJonesModel>(run.model), pair.start.box, prepared.layout, run.isa, prepared.metric,
+                                 run.threads_per_path())),
         stepper(*landscape, prepared.landscape_energy, options(run)) {}
   static typename Stepper::Options options(const Run& run) {
     typename Stepper::Options options;

@@ -37,7 +37,7 @@ struct PathRunOptions {
   std::optional<double> landscape_energy;  // E_L; else the higher of the two ends [epsilon]
   bool reverse = false;                    // search from the far end too and keep the shorter path
   FinderOptions finder;
-  int threads = 1;  // paths searched at once; no effect on any result
+  int threads = 1;  // paths searched at once, or of one path the evaluations; no effect on any result
   double step_length() const;
   // Throws Error(bad_input) naming the option that is out of range.
   void check() const;

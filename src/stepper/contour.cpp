@@ -66,6 +66,7 @@ void ContourStepper::exchange(Archive& archive, const AlignedArray& position) {
   archive.field("stepper_energy", energy_);
   archive.field("evaluations", evaluations_);
   archive.field("corrections", corrections_);
+  landscape_->exchange(archive);
   if (!archive.reading()) return;
   // Not archived: the same position gives the same gradient, to the bit.
   gradient_known_ = known != 0;

@@ -48,6 +48,7 @@ void EscapeStepper::exchange(Archive& archive, const AlignedArray&) {
   archive.field("evaluations", evaluations_);
   archive.field("corrections", corrections_);
   archive.field("expected_iterations", expected_iterations_);
+  landscape_->exchange(archive);
 }
 
 }  // namespace lanescape

@@ -111,7 +111,8 @@ Json run_diffusion_command(DiffusionState& state, const Options& options, int& s
     throw_bad_input("--plot needs --out: the plots are files");
   state.setup.settle(model);
   const Configuration start = state.setup.start(model, state.common, isa);
-  const DiffusionRunOptions run_with = run_options(state, model, start);
+  DiffusionRunOptions run_with = run_options(state, model, start);
+  run_with.equilibration.threads = state.common.threads;
   OutputFolder folder = open_folder(state.common);
   folder.write_run_file("diffusion", options.resolved());
   TerminalMonitor monitor(state.common.quiet);

@@ -15,9 +15,9 @@ struct EnergyResult {
   std::vector<double> gradient;  // 3N, user's order
 };
 
-EnergyResult by_kernels(const LennardJonesModel& model, const Configuration& configuration, Isa isa) {
+EnergyResult by_kernels(const LennardJonesModel& model, const Configuration& configuration, Isa isa, int threads) {
   const ParticleLayout layout(configuration.species, model.species.size());
-  LennardJones interaction(model, configuration.box, layout, kernel_table(isa));
+  LennardJones interaction(model, configuration.box, layout, kernel_table(isa), {.threads = threads});
   AlignedArray gradient(layout.dimension(), 0.0);
   const auto e = interaction.energy_and_stress(layout.to_slots(configuration.positions), gradient);
   return {e.energy, e.virial, e.virial_tensor, layout.to_user(gradient)};
@@ -73,7 +73,8 @@ Subcommand add_energy(CLI::App& app) {
             check_cutoff(model, configuration.box);
             const bool simd = state->backend == "simd";
             OutputFolder folder = open_folder(state->common);
-            const EnergyResult e = simd ? by_kernels(model, configuration, isa) : by_reference(model, configuration);
+            const EnergyResult e =
+                simd ? by_kernels(model, configuration, isa, state->common.threads) : by_reference(model, configuration);
             const Json result = to_json(e, configuration, model, simd ? to_string(isa) : "reference", state->forces);
             write_result(folder, "energy", options->resolved(), result);
             return result;

@@ -199,10 +199,12 @@ void write_equilibration(OutputFolder& folder, const EndPointRunResult& run, con
 }
 
 EndPointRunResult run_protocol(const Model& model, const Configuration& start, const EndPointProtocol& protocol, Isa isa,
-                               const CheckpointOptions& checkpoint, RunMonitor& monitor) {
+                               const CheckpointOptions& checkpoint, RunMonitor& monitor, int threads) {
   if (const auto* hard = std::get_if<HardSphereModel>(&model))
     return run_hard_end_points(*hard, start, std::get<HardEndPointOptions>(protocol), isa, checkpoint, monitor);
-  return run_end_points(std::get<LennardJonesModel>(model), start, std::get<EndPointOptions>(protocol), isa, checkpoint, monitor);
+  EndPointOptions options = std::get<EndPointOptions>(protocol);
+  options.threads = threads;
+  return run_end_points(std::get<LennardJonesModel>(model), start, options, isa, checkpoint, monitor);
 }
 
 }  // namespace
@@ -210,8 +212,9 @@ EndPointRunResult run_protocol(const Model& model, const Configuration& start, c
 EndPoints make_end_points(const Model& model, const Configuration& start, const EndPointProtocol& protocol, Isa isa,
                           OutputFolder& folder, const CommonOptions& common) {
   TerminalMonitor monitor(common.quiet);
-  EndPoints result{run_protocol(model, start, protocol, isa, {folder.checkpoints(), !common.resume.empty()}, monitor),
-                   Json::object(), false};
+  EndPoints result{
+      run_protocol(model, start, protocol, isa, {folder.checkpoints(), !common.resume.empty()}, monitor, common.threads),
+      Json::object(), false};
   const EndPointRunResult& run = result.run;
   const bool hard = std::holds_alternative<HardSphereModel>(model);
   result.json["pairs"] = Json::array();

@@ -1,0 +1,186 @@
+// Dynamics and paths over neighbour lists: what depends on where a list was made must survive an archive, and nothing may depend on
+// the number of threads.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "configuration/lattice.hpp"
+#include "interaction/lennard_jones.hpp"
+#include "io/hdf5_archive.hpp"
+#include "neighbour/neighbour_list.hpp"
+#include "path/finder.hpp"
+#include "run/path_run.hpp"
+#include "stepper/contour.hpp"
+#include "stepper/escape.hpp"
+#include "systems.hpp"
+
+namespace lanescape {
+namespace {
+
+constexpr std::size_t particles = 256;
+
+struct Liquid {
+  LennardJonesModel model = kob_andersen();
+  Configuration configuration = fcc_start(model, particles, 1.2, 1);
+  ParticleLayout layout{configuration.species, 2};
+
+  LennardJonesLandscape landscape(int threads = 1, PairSearch search = PairSearch::automatic) const {
+    return {model, configuration.box, layout, testing::active_isa(), {.search = search, .threads = threads}};
+  }
+  VelocityVerlet moving(SoftLandscape& landscape, double temperature = 3.0) const {
+    VelocityVerlet verlet(landscape, model, layout, layout.to_slots(configuration.positions), 2e-3);
+    verlet.draw_velocities(temperature, 1);
+    return verlet;
+  }
+};
+
+void run(VelocityVerlet& verlet, int steps) {
+  for (int k = 0; k < steps; ++k) verlet.step();
+}
+
+std::filesystem::path scratch_file() {
+  return std::filesystem::temp_directory_path() / ("lanescape-large-" + std::to_string(::getpid()) + ".h5");
+}
+
+template <class State>
+void write(State& state) {
+  Hdf5Writer archive(scratch_file());
+  state.exchange(archive);
+  archive.commit();
+}
+
+template <class State>
+void read(State& state) {
+  Hdf5Reader archive(scratch_file());
+  state.exchange(archive);
+  std::filesystem::remove(scratch_file());
+}
+
+TEST(LargeSystems, AreOfTheSizeThatTakesAList) { EXPECT_GE(particles, list_crossover); }
+
+TEST(LargeSystems, DynamicsOverAListFollowsThatOverAllPairs) {
+  const Liquid liquid;
+  auto by_list = liquid.landscape(1, PairSearch::list), by_pairs = liquid.landscape(1, PairSearch::all_pairs);
+  VelocityVerlet a = liquid.moving(by_list), b = liquid.moving(by_pairs);
+  run(a, 200);
+  run(b, 200);
+  // Rounding grows by a factor of about e in each tenth of a time unit.
+  for (std::size_t k = 0; k < a.position().size(); ++k) ASSERT_NEAR(a.position()[k], b.position()[k], 1e-9) << k;
+}
+
+TEST(LargeSystems, DynamicsOverAListConservesEnergyThroughManyRenewals) {
+  const Liquid liquid;
+  auto landscape = liquid.landscape();
+  VelocityVerlet verlet = liquid.moving(landscape);
+  run(verlet, 500);
+  const auto total = [&] { return (verlet.potential_energy() + verlet.kinetic_energy()) / static_cast<double>(particles); };
+  const double before = total();
+  for (int k = 0; k < 10; ++k) {
+    run(verlet, 100);
+    EXPECT_NEAR(total(), before, 2e-3);
+  }
+}
+
+TEST(LargeSystems, DynamicsDoesNotDependOnTheNumberOfThreads) {
+  const Liquid liquid;
+  auto one = liquid.landscape(1), three = liquid.landscape(3);
+  VelocityVerlet a = liquid.moving(one), b = liquid.moving(three);
+  run(a, 100);
+  run(b, 100);
+  EXPECT_EQ(a.position(), b.position());
+  EXPECT_EQ(a.potential_energy(), b.potential_energy());
+}
+
+// Stopped where the list is fresh, half used and about to be renewed.
+TEST(LargeSystems, DynamicsResumedFromAnArchiveGoesOnWithTheSameBits) {
+  const Liquid liquid;
+  auto landscape = liquid.landscape();
+  VelocityVerlet whole = liquid.moving(landscape);
+  run(whole, 120);
+  for (const int stop : {1, 7, 13, 20, 31, 44, 58}) {
+    auto first = liquid.landscape(), second = liquid.landscape(2);
+    VelocityVerlet begun = liquid.moving(first);
+    run(begun, stop);
+    write(begun);
+    VelocityVerlet resumed = liquid.moving(second, 1.0);
+    read(resumed);
+    run(resumed, 120 - stop);
+    EXPECT_EQ(resumed.position(), whole.position()) << stop;
+    EXPECT_EQ(resumed.potential_energy(), whole.potential_energy()) << stop;
+  }
+}
+
+// Two configurations of one trajectory and the energy between them.
+struct Ends {
+  AlignedArray start, goal;
+  double energy;
+};
+
+Ends ends(const Liquid& liquid) {
+  auto landscape = liquid.landscape();
+  VelocityVerlet verlet = liquid.moving(landscape);
+  run(verlet, 1500);
+  Ends ends{testing::lowest_on_the_way(verlet, 300), {}, 0.0};
+  run(verlet, 250);
+  ends.goal = testing::lowest_on_the_way(verlet, 300);
+  ends.energy = std::max(landscape.energy(ends.start), landscape.energy(ends.goal));
+  return ends;
+}
+
+template <class Stepper>
+PathFinder<Stepper> finder_on(LennardJonesLandscape& landscape, const Ends& ends) {
+  // Steps long enough for the list to be renewed many times.
+  return {landscape.algebra(), Stepper(landscape, ends.energy, {.direct_step = 0.03}), ends.start, ends.goal, particles,
+          FinderOptions{}};
+}
+
+template <class Stepper>
+void expect_resumed_path_to_have_the_same_bits() {
+  const Liquid liquid;
+  const Ends between = ends(liquid);
+  auto landscape = liquid.landscape();
+  auto whole = finder_on<Stepper>(landscape, between);
+  whole.advance(1'000'000);
+  ASSERT_EQ(whole.outcome(), Outcome::reached) << whole.reason();
+  ASSERT_GT(whole.detour_steps(), 100u);
+  for (const std::uint64_t stop : {std::uint64_t{1}, whole.steps() / 3, whole.steps() / 2, whole.steps() - 1}) {
+    auto first = liquid.landscape(), second = liquid.landscape(2);
+    auto begun = finder_on<Stepper>(first, between);
+    begun.advance(stop);
+    write(begun);
+    auto resumed = finder_on<Stepper>(second, between);
+    read(resumed);
+    resumed.advance(1'000'000);
+    EXPECT_EQ(resumed.steps(), whole.steps()) << stop;
+    EXPECT_EQ(resumed.statistics().length(), whole.statistics().length()) << stop;
+    EXPECT_EQ(resumed.largest_violation(), whole.largest_violation()) << stop;
+  }
+}
+
+TEST(LargeSystems, AContourPathResumedFromAnArchiveGoesOnWithTheSameBits) {
+  expect_resumed_path_to_have_the_same_bits<ContourStepper>();
+}
+
+TEST(LargeSystems, AnEscapePathResumedFromAnArchiveGoesOnWithTheSameBits) {
+  expect_resumed_path_to_have_the_same_bits<EscapeStepper>();
+}
+
+TEST(LargeSystems, APathOverAListIsAsLongAsThatOverAllPairs) {
+  const Liquid liquid;
+  const Ends between = ends(liquid);
+  auto by_list = liquid.landscape(2, PairSearch::list), by_pairs = liquid.landscape(1, PairSearch::all_pairs);
+  auto a = finder_on<ContourStepper>(by_list, between), b = finder_on<ContourStepper>(by_pairs, between);
+  a.advance(1'000'000);
+  b.advance(1'000'000);
+  ASSERT_EQ(a.outcome(), Outcome::reached);
+  ASSERT_EQ(b.outcome(), Outcome::reached);
+  EXPECT_NEAR(a.statistics().length(), b.statistics().length(), 0.01 * b.statistics().length());
+}
+
+}  // namespace
+}  // namespace lanescape
