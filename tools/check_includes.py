@@ -133,7 +133,7 @@ def refuse_in_program(relative, target):
 
 
 def refuse_in_bench(relative, target):
-    return None if target.place in ("api", "src", "kernels", "reference", "neighbouring file", "outside") else "bench sees src, kernels and reference"
+    return None if target.place in ("api", "src", "kernels", "reference", "neighbouring file", "outside") else "bench and docs see src, kernels and reference"
 
 
 def refuse_in_host_code(relative, target):
@@ -153,7 +153,7 @@ RULES = {
     "tools": refuse_in_program,
     "bench": refuse_in_bench,
     "bindings": refuse_in_host_code,
-    "docs": refuse_in_host_code,
+    "docs": refuse_in_bench,
     "tests": refuse_in_tests,
 }
 
