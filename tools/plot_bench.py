@@ -5,8 +5,8 @@ BENCH.json is Google Benchmark's JSON of bench_lists over sizes, repetitions or 
 with --json. Writes into DIR:
   scaling.png    time per particle (counter ns_per_particle) against the number of particles, a panel per case, with the peers' points
   roofline.png   speed against arithmetic intensity under the measured peak of a core, from the counters flops_per_byte and gflops (of all
-                 threads) and the context peak_gflops (of one core); where the counters are absent, the share of the measured peak (fraction_of_peak) against the number of particles;
-                 left out where that is absent too
+                 threads) and the context peak_gflops (of one core); where the counters are absent, the share of the measured peak
+                 (fraction_of_peak) against the number of particles; left out where that is absent too
   peers.png      how many times longer the peers take than Lanescape, per case and size, with --peers
 
 Of several instruction sets the widest is drawn. Points are medians of repetitions, bars their range.

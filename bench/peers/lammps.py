@@ -14,7 +14,8 @@ particle and step. Pair styles run on MPI processes; lj/cut/omp runs threads of 
 
 What is not there (LAMMPS, a pair style, mpirun, a benchmark) is named as missing in the table and in the JSON.
 
-Exit status 0; 1 if energies disagree or a program fails, with one line on stderr; 2 with one line on stderr for wrong usage.
+Progress goes to stderr. Exit status 0; 1 if energies disagree or a program fails, the reason being the last line on stderr, or if there
+is no LAMMPS; 2 with one line on stderr for wrong usage.
 """
 
 import dataclasses
@@ -174,7 +175,7 @@ def potential_energy(lammps, name, data, liquid, peer):
 
 
 def measure(lammps, name, data, liquid, peer, cases, options):
-    """(case): nanoseconds per particle and step, share of the processor, list builds; all from one script."""
+    """By case: nanoseconds per particle and step, share of the processor, list builds; all from one script."""
     particles = int(data.read_text().splitlines()[2].split()[0])
     steps = max(10, round(options.work / particles))
     lines = [*header(peer, data), *interaction(peer, liquid), "neigh_modify once yes"]
