@@ -41,6 +41,8 @@ bool fits_list(const LennardJonesModel& model, const Box& box, double skin);
 inline constexpr std::size_t list_crossover = 200;
 // Of a list: larger ones hold more pairs that are out of range, smaller ones are made anew more often [sigma].
 inline constexpr double default_skin = 0.3;
+// Along a path, whose particles hardly move from one step to the next: rare renewal is worth less than a short list.
+inline constexpr double path_skin = 0.15;
 
 struct PairSearchOptions {
   PairSearch search = PairSearch::automatic;

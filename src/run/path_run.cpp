@@ -28,11 +28,9 @@ using Clock = std::chrono::steady_clock;
 // Steps between looks at the outside world, and between checkpoints: about 3 ms and 2 s, hard spheres 1 ms and 1 s.
 std::uint64_t steps_per_chunk(std::size_t particles) { return std::clamp<std::uint64_t>(30'000 / (particles + 1), 1, 1000); }
 constexpr std::uint64_t chunks_per_checkpoint = 700;
-constexpr double path_skin = 0.15;  // [sigma]; docs/PERFORMANCE.md
 
 std::unique_ptr<SoftLandscape> make_landscape(const LennardJonesModel& model, const Box& box, const ParticleLayout& layout, Isa isa,
                                               const KinematicMetric& metric, int threads) {
-  // A path's particles hardly move from one step to the next: a thin skin is worth more than rare lists.
   std::unique_ptr<SoftLandscape> landscape =
       std::make_unique<LennardJonesLandscape>(model, box, layout, isa, PairSearchOptions{.threads = threads, .skin = path_skin});
   if (metric.is_euclidean()) return landscape;

@@ -1,0 +1,72 @@
+"""This project's side of a comparison: the program's energy and bench_lists, on a file."""
+
+import json
+import os
+import subprocess
+
+from benchmark_results import ISAS, Unusable, check_results, parts_of, repetitions, value
+
+CASES = ("force", "force+energy+virial", "step")
+
+
+class Failed(Exception):
+    """A program did not do what it should, in one line."""
+
+
+def last_line(text):
+    lines = [line.strip() for line in text.splitlines() if any(c.isalnum() for c in line)]
+    return lines[-1] if lines else "no message"
+
+
+def run(command, environment=None):
+    """Standard output of a program that must succeed."""
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, errors="replace",
+                          stdin=subprocess.DEVNULL, env={**os.environ, **(environment or {})})
+    if done.returncode != 0:
+        raise Failed(f"{command[0]}: exit status {done.returncode}: {last_line(done.stderr or done.stdout)}")
+    return done.stdout
+
+
+def energy_and_virial(program, file, liquid, cutoff):
+    result = json.loads(run([program, "energy", file, "--model", liquid.model, "--cutoff", cutoff, "--truncation", "shifted", "--quiet"]))
+    return result["energy"], result["virial"]
+
+
+class Bench:
+    """bench_lists on one configuration: one instruction set, the widest there is unless one is asked for."""
+
+    def __init__(self, program, file, liquid, particles, cases, threads, isa=None):
+        self.command = [program, f"--configuration={file}", f"--model={liquid.model}"]
+        names = run([*self.command, "--benchmark_list_tests"]).split()
+        there = {parts_of(name).get("isa") for name in names}
+        self.isa = isa or next((known for known in ISAS if known in there), None)
+        self.names, self.missing = {}, []
+        for case in cases:
+            for count in threads:
+                wanted = {"case": case, "N": particles, "threads": count, "isa": self.isa}
+                name = next((name for name in names if wanted.items() <= parts_of(name).items()), None)
+                if name:
+                    self.names[name] = (case, count)
+                else:
+                    self.missing.append((case, count))
+
+    def measure(self):
+        """(case, threads): nanoseconds per particle, or per particle and step; the median where a run repeats itself."""
+        if not self.names:
+            return {}
+        pattern = "^(" + "|".join(name.replace("+", "[+]").replace(".", "[.]") for name in self.names) + ")$"
+        source = str(self.command[0])
+        try:
+            data = check_results(json.loads(run([*self.command, f"--benchmark_filter={pattern}", "--benchmark_format=json"])), source)
+            runs = repetitions(data, source)
+        except json.JSONDecodeError as error:
+            raise Failed(f"{source}: not JSON: {error.msg}") from error
+        except Unusable as error:
+            raise Failed(str(error)) from error
+        measured = {}
+        for name, key in self.names.items():
+            if name not in runs:
+                raise Failed(f"{source}: {name} is not among its results")
+            values = sorted(value(entry, "ns_per_particle", source) for entry in runs[name])
+            measured[key] = values[len(values) // 2]
+        return measured

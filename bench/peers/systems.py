@@ -1,0 +1,86 @@
+"""The liquids on which codes are compared, and their files. Reduced units, masses 1."""
+
+import dataclasses
+import math
+from pathlib import Path
+
+import numpy as np
+
+CUTOFF = 2.5  # [sigma_ab]
+
+
+@dataclasses.dataclass(frozen=True)
+class Liquid:
+    model: str
+    density: float
+    temperature: float
+    melting_temperature: float  # a lattice melts within a time unit or two
+    species: tuple  # as in files
+    pairs: dict  # (a, b) with a <= b: epsilon, sigma
+    fraction_of_last: float
+
+
+LIQUIDS = {liquid.model: liquid for liquid in (
+    Liquid("kob-andersen", 1.2, 1.0, 5.0, ("Ni", "P"), {(0, 0): (1.0, 1.0), (0, 1): (1.5, 0.8), (1, 1): (0.5, 0.88)}, 0.2),
+    # Near the triple point: the state that LAMMPS's `melt` and MD-Bench reach from their lattice at T = 1.44.
+    Liquid("lennard-jones", 0.8442, 0.722, 3.0, ("Ar",), {(0, 0): (1.0, 1.0)}, 0.0))}
+
+
+@dataclasses.dataclass
+class Configuration:
+    liquid: Liquid
+    edge: float  # [sigma]
+    species: np.ndarray  # index into liquid.species
+    positions: np.ndarray  # N x 3, within [0, edge)
+
+    def __len__(self):
+        return len(self.species)
+
+
+def lattice_constant(liquid, particles):
+    """The edge of the cubic box, and of how many fcc cells along it the lattice has sites enough."""
+    return (particles / liquid.density) ** (1.0 / 3.0), math.ceil(round((particles / 4) ** (1.0 / 3.0), 9))
+
+
+def lattice(liquid, particles, seed):
+    """An fcc lattice, species at random sites; vacancies where the number is not 4 n^3."""
+    rng = np.random.default_rng(seed)
+    edge, cells = lattice_constant(liquid, particles)
+    corners = np.stack(np.meshgrid(*[np.arange(cells)] * 3, indexing="ij"), axis=-1).reshape(-1, 1, 3)
+    sites = (corners + [[0.25, 0.25, 0.25], [0.75, 0.75, 0.25], [0.75, 0.25, 0.75], [0.25, 0.75, 0.75]]).reshape(-1, 3)
+    sites = sites[np.sort(rng.permutation(len(sites))[:particles])]
+    species = np.zeros(particles, int)
+    species[rng.permutation(particles)[:math.floor(liquid.fraction_of_last * particles)]] = len(liquid.species) - 1
+    return Configuration(liquid, edge, species, sites * (edge / cells))
+
+
+def wrapped(positions, edge):
+    inside = positions - edge * np.floor(positions / edge)
+    inside[inside >= edge] = 0.0  # the rounding of a tiny negative number
+    return inside
+
+
+def lattice_order(configuration):
+    """|rho(k)|/N at the shortest reciprocal vectors of the lattice: 1 for the lattice, about sqrt(S(k)/N) for a liquid."""
+    cells = lattice_constant(configuration.liquid, len(configuration))[1]
+    k = 2.0 * np.pi * cells / configuration.edge * np.array([[1, 1, 1], [-1, 1, 1], [1, -1, 1], [1, 1, -1]])
+    return float(np.abs(np.exp(1j * configuration.positions @ k.T).mean(axis=0)).mean())
+
+
+def write_extended_xyz(file, configuration):
+    """With the shortest digits that read back as the same bits."""
+    edge, names = repr(float(configuration.edge)), configuration.liquid.species
+    lines = [str(len(configuration)),
+             f'Lattice="{edge} 0 0 0 {edge} 0 0 0 {edge}" Properties=species:S:1:pos:R:3 pbc="T T T"']
+    lines += [f"{names[s]} {x!r} {y!r} {z!r}" for s, (x, y, z) in zip(configuration.species.tolist(), configuration.positions.tolist())]
+    Path(file).write_text("\n".join(lines) + "\n")
+
+
+def read_extended_xyz(file, liquid):
+    """What write_extended_xyz has written."""
+    count, comment, *rows = Path(file).read_text().splitlines()
+    if len(rows) != int(count):
+        raise ValueError(f"{count} particles announced, {len(rows)} found")
+    fields = [row.split() for row in rows]
+    return Configuration(liquid, float(comment.split('"')[1].split()[0]), np.array([liquid.species.index(f[0]) for f in fields]),
+                         np.array([[float(x) for x in f[1:4]] for f in fields]))

@@ -1,0 +1,330 @@
+#!/usr/bin/python3
+"""Draw the benchmark of neighbour lists: tools/plot_bench.py BENCH.json [--peers PEERS.json] --out DIR
+
+BENCH.json is Google Benchmark's JSON of bench_lists over sizes, repetitions or not; PEERS.json what bench/peers/lammps.py writes
+with --json. Writes into DIR:
+  scaling.png    time per particle (counter ns_per_particle) against the number of particles, a panel per case, with the peers' points
+  roofline.png   speed against arithmetic intensity under the measured peak of a core, from the counters flops_per_byte and gflops (of all
+                 threads) and the context peak_gflops (of one core); where the counters are absent, the share of the measured peak
+                 (fraction_of_peak) against the number of particles; left out where that is absent too
+  peers.png      how many times longer the peers take than Lanescape, per case and size, with --peers
+
+Of several instruction sets the widest is drawn. Points are medians of repetitions, bars their range.
+Exit status 0, or 2 with one line on stderr when something is missing or cannot be read; then nothing is drawn.
+"""
+
+import math
+import statistics
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter, NullLocator
+
+from benchmark_results import ISAS, MODELS, Arguments, Unusable, parts_of, read_json, read_results, repetitions, value
+
+# Okabe and Ito, told apart with every common colour vision. Colour is the code, line and marker the number of threads.
+BLUE, VERMILLION, GREEN, PURPLE, ORANGE, GREY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#595959"
+PEER_COLOURS = (VERMILLION, GREEN, PURPLE, ORANGE)
+MARKERS, LINES = ("o", "s", "^", "D", "v"), ("-", "--", "-.", ":", (0, (1, 3)))
+CASE_NAMES = {"force": "Force", "force+energy+virial": "Force, energy and virial", "energy": "Energy", "step": "Molecular dynamics step"}
+
+plt.rcParams.update({
+    "font.size": 13, "axes.labelsize": 14, "axes.titlesize": 14, "legend.fontsize": 12, "xtick.labelsize": 12, "ytick.labelsize": 12,
+    "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False, "savefig.dpi": 150, "lines.linewidth": 2.0,
+    "lines.markersize": 7, "mathtext.fontset": "dejavusans", "axes.linewidth": 1.0,
+})
+
+
+# ---- reading
+
+def read_bench(file):
+    """The context and a point per benchmark of the widest instruction set: case, model, N, threads, samples of ns, other counters."""
+    data = read_results(file)
+    points = []
+    for name, entries in repetitions(data, file).items():
+        parts = parts_of(name)
+        if not isinstance(parts.get("N"), int):
+            raise Unusable(f"{file}: {name}: no number of particles in the name (N:<number>)")
+        point = {"case": parts["case"], "model": parts.get("model"), "particles": parts["N"], "threads": parts.get("threads", 1),
+                 "isa": parts.get("isa"), "samples": [value(entry, "ns_per_particle", file) for entry in entries]}
+        for counter in ("fraction_of_peak", "flops_per_byte", "gflops"):
+            if all(counter in entry for entry in entries):
+                point[counter] = statistics.median(value(entry, counter, file) for entry in entries)
+        points.append(point)
+    isas = [point["isa"] for point in points]
+    best = next((isa for isa in ISAS if isa in isas), None)
+    return data.get("context", {}), [point for point in points if point["isa"] == best], best
+
+
+def read_peers(file):
+    report = read_json(file)
+    rows = report.get("results") if isinstance(report, dict) else None
+    if not isinstance(rows, list) or not rows:
+        raise Unusable(f"{file}: no list 'results' of peers in it")
+    for row in rows:
+        for key, kind in (("case", str), ("model", str), ("particles", int), ("threads", int), ("code", str), ("variant", str),
+                          ("samples", list)):
+            if not isinstance(row, dict) or not isinstance(row.get(key), kind):
+                raise Unusable(f"{file}: a result without {key}")
+        if not row["samples"] or not all(isinstance(x, (int, float)) and math.isfinite(x) and x > 0 for x in row["samples"]):
+            raise Unusable(f"{file}: {row['code']} {row['variant']}, N = {row['particles']}: times must be finite numbers above 0")
+        ratio = row.get("ratio")
+        if ratio is not None and not (isinstance(ratio, (int, float)) and math.isfinite(ratio) and ratio > 0):
+            raise Unusable(f"{file}: {row['code']} {row['variant']}, N = {row['particles']}: the ratio must be a number above 0, or null")
+    return [row for row in rows if row["code"] != "lanescape"]
+
+
+def peak_of(context, isa):
+    """GFLOP/s of one core: `peak_gflops`, or what our benchmarks write as `peak avx2`."""
+    try:
+        peak = float(str(context.get("peak_gflops", context.get(f"peak {isa}", ""))).split()[0])
+    except (ValueError, IndexError):
+        return None
+    return peak if math.isfinite(peak) and peak > 0 else None
+
+
+# ---- parts of figures
+
+def in_order(values, first=()):
+    """Without repetition: those of `first`, then the others as they come."""
+    return sorted(dict.fromkeys(values), key=lambda v: first.index(v) if v in first else len(first))
+
+
+def threads_of(rows):
+    return sorted({row["threads"] for row in rows})
+
+
+def style_of(threads, all_threads):
+    k = all_threads.index(threads) % len(MARKERS)
+    return {"marker": MARKERS[k], "linestyle": LINES[k]}
+
+
+def cores(count):
+    """Threads, or the processes of a peer that works with them."""
+    return f"{count} core{'s' if count > 1 else ''}"
+
+
+def particle_number(n, _=None):
+    return f"{n:g}" if n < 10_000 else f"{n / 1000:g}k" if n < 1_000_000 else f"{n / 1e6:g}M"
+
+
+def draw_line(axes, rows, colour, label, style):
+    """Medians against N, with the range of the repetitions."""
+    rows = sorted(rows, key=lambda row: row["particles"])
+    x, samples = [row["particles"] for row in rows], [row["samples"] for row in rows]
+    y = np.array([statistics.median(s) for s in samples])
+    bars = np.array([[m - min(s), max(s) - m] for m, s in zip(y, samples)]).T
+    axes.errorbar(x, y, yerr=bars, color=colour, label=label, capsize=3, elinewidth=1.0, markerfacecolor="white", markeredgewidth=1.8, **style)
+
+
+def particle_axis(axes, sizes):
+    """Logarithmic, ticks where there are points; every second one named where they are close."""
+    sizes = sorted(set(sizes))
+    axes.set_xscale("log")
+    axes.set_xlim(sizes[0] / 1.6, sizes[-1] * 1.6)
+    decades = np.diff(np.log10(sizes)).min() if len(sizes) > 1 else 1.0
+    axes.xaxis.set_major_locator(FixedLocator(sizes if decades > 0.25 else sizes[::2]))
+    axes.xaxis.set_major_formatter(FuncFormatter(particle_number))
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.set_xlabel("Particles $N$")
+
+
+def plain_numbers(axis):
+    """1, 2, 5, 10, ... on a logarithmic axis."""
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0), numticks=30))
+    axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def shared_legend(figure, axes_list, columns):
+    """Once for all panels, above them, where no data can be; in the order of labels' first words, columns being filled first."""
+    found = {}
+    for axes in axes_list:
+        for handle, label in zip(*axes.get_legend_handles_labels()):
+            found.setdefault(label, handle)
+    order = in_order([label.split(",")[0] for label in found])
+    found = dict(sorted(found.items(), key=lambda item: order.index(item[0].split(",")[0])))
+    figure.legend(found.values(), found.keys(), loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=min(columns, len(found)),
+                  borderaxespad=0.2, handlelength=2.6)
+
+
+def save(figure, file):
+    figure.savefig(file, bbox_inches="tight", pad_inches=0.15)
+    plt.close(figure)
+
+
+# ---- figures
+
+def panels_of(points):
+    """(model, case) with the model None where names do not hold it."""
+    models = in_order([point["model"] for point in points], tuple(MODELS))
+    cases = in_order([point["case"] for point in points], tuple(CASE_NAMES))
+    present = {(point["model"], point["case"]) for point in points}
+    return [(m, c) for m in models for c in cases if (m, c) in present]
+
+
+def panel_title(model, case):
+    name = CASE_NAMES.get(case, case)
+    return f"{MODELS[model]}:\n{name}" if model else name
+
+
+def draw_scaling(file, points, peers, isa):
+    panels = panels_of(points)
+    columns = min(3, len(panels))
+    rows = math.ceil(len(panels) / columns)
+    figure, grid = plt.subplots(rows, columns, figsize=(max(7.0, 4.6 * columns), 4.4 * rows), squeeze=False, layout="constrained")
+    for axes in grid.flat[len(panels):]:
+        axes.set_visible(False)
+    threads = threads_of(points + peers)
+    codes = in_order([(row["code"], row["variant"]) for row in peers])
+    for axes, (model, case) in zip(grid.flat, panels):
+        own = [p for p in points if (p["model"], p["case"]) == (model, case)]
+        # Names without a model are those of one liquid, the first of the peers' file.
+        theirs = [row for row in peers if row["case"] == case and row["model"] == (model or peers[0]["model"])]
+        for t in threads:
+            mine = [p for p in own if p["threads"] == t]
+            if mine:
+                draw_line(axes, mine, BLUE, f"Lanescape {isa or ''}, {cores(t)}".replace(" ,", ","), style_of(t, threads))
+            for k, code in enumerate(codes):
+                rows_of_code = [row for row in theirs if row["threads"] == t and (row["code"], row["variant"]) == code]
+                if rows_of_code:
+                    draw_line(axes, rows_of_code, PEER_COLOURS[k % len(PEER_COLOURS)], f"{' '.join(code)}, {cores(t)}", style_of(t, threads))
+        particle_axis(axes, [row["particles"] for row in own + theirs])
+        times = [x for row in own + theirs for x in row["samples"]]
+        if max(times) > 5.0 * min(times):
+            axes.set_yscale("log")
+            axes.set_ylim(min(times) / 1.5, max(times) * 1.5)
+            plain_numbers(axes.yaxis)
+        else:
+            axes.set_ylim(bottom=0.0)
+        axes.set_title(panel_title(model, case), loc="left")
+    for axes in grid[:, 0]:
+        axes.set_ylabel("Time per particle [ns]")
+    shared_legend(figure, grid.flat, max(2, 1 + len(codes)))
+    save(figure, file)
+
+
+def draw_roofline(file, points, peak, isa):
+    """Speed against intensity where the counters are there. The roof is the measured peak; the slope, if any, is in the data."""
+    figure, axes = plt.subplots(figsize=(8.5, 5.2), layout="constrained")
+    threads, panels = threads_of(points), panels_of(points)
+    colours = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, GREY)
+    for k, (model, case) in enumerate(panels):
+        for t in threads:
+            chosen = sorted((p for p in points if (p["model"], p["case"], p["threads"]) == (model, case, t)), key=lambda p: p["particles"])
+            if chosen:
+                axes.plot([p["flops_per_byte"] for p in chosen], [p["gflops"] / t for p in chosen], color=colours[k % len(colours)],
+                          markerfacecolor="white", markeredgewidth=1.8, label=panel_title(model, case).replace("\n", " ") + f", {cores(t)}",
+                          marker=style_of(t, threads)["marker"], linestyle="none")
+    intensities = [p["flops_per_byte"] for p in points]
+    low, high = min(intensities) / 3.0, max(intensities) * 3.0
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlim(low, high)
+    if peak:
+        axes.plot([low, high], [peak, peak], color=GREY, linewidth=1.5, label=f"Measured peak{f' ({isa})' if isa else ''}: {peak:.3g} GFLOP/s")
+    speeds = [p["gflops"] / p["threads"] for p in points] + ([peak] if peak else [])
+    axes.set_ylim(min(speeds) / 2.0, max(speeds) * 1.5)
+    plain_numbers(axes.xaxis)
+    plain_numbers(axes.yaxis)
+    axes.set_xlabel("Arithmetic intensity [FLOP/byte]")
+    axes.set_ylabel("Speed per core [GFLOP/s]")
+    shared_legend(figure, [axes], 2)
+    save(figure, file)
+
+
+def draw_fraction(file, points, isa):
+    figure, axes = plt.subplots(figsize=(8.5, 5.2), layout="constrained")
+    threads = threads_of(points)
+    colours = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, GREY)
+    for k, (model, case) in enumerate(panels_of(points)):
+        for t in threads:
+            chosen = [p for p in points if (p["model"], p["case"], p["threads"]) == (model, case, t)]
+            if chosen:
+                draw_line(axes, [{**p, "samples": [100.0 * p["fraction_of_peak"]]} for p in chosen], colours[k % len(colours)],
+                          panel_title(model, case).replace("\n", " ") + f", {cores(t)}", style_of(t, threads))
+    particle_axis(axes, [p["particles"] for p in points])
+    axes.set_ylim(bottom=0.0)
+    axes.set_ylabel(f"Share of the measured peak{f' of {isa}' if isa else ''} [%]")
+    shared_legend(figure, [axes], 2)
+    save(figure, file)
+
+
+def draw_peers(file, peers):
+    """A panel per liquid and number of threads, a group of bars per case and size."""
+    rows = [row for row in peers if row.get("ratio") is not None]
+    models, threads = in_order([row["model"] for row in rows], tuple(MODELS)), threads_of(rows)
+    codes = in_order([(row["code"], row["variant"]) for row in rows])
+    present = [(m, t) for m in models for t in threads if any((row["model"], row["threads"]) == (m, t) for row in rows)]
+    figure, grid = plt.subplots(len(present), 1, figsize=(11.0, 1.0 + 3.0 * len(present)), squeeze=False, layout="constrained")
+    top = 1.15 * max(row["ratio"] for row in rows)
+    for axes, (model, t) in zip(grid[:, 0], present):
+        chosen = [row for row in rows if (row["model"], row["threads"]) == (model, t)]
+        groups = [(c, n) for c in in_order([row["case"] for row in chosen], tuple(CASE_NAMES))
+                  for n in sorted({row["particles"] for row in chosen if row["case"] == c})]
+        width = 0.8 / len(codes)
+        places, place, last = {}, 0.0, None
+        for group in groups:
+            place += 0.0 if last is None else 1.0 if group[0] == last else 1.6  # a gap between cases
+            places[group], last = place, group[0]
+        for k, code in enumerate(codes):
+            for row in (row for row in chosen if (row["code"], row["variant"]) == code):
+                x = places[row["case"], row["particles"]] + (k - 0.5 * (len(codes) - 1)) * width
+                axes.bar(x, row["ratio"], 0.92 * width, color=PEER_COLOURS[k % len(PEER_COLOURS)], label=" ".join(code))
+                axes.annotate(f"{row['ratio']:.1f}", (x, row["ratio"]), ha="center", va="bottom", fontsize=10)
+        axes.axhline(1.0, color=GREY, linewidth=1.2, linestyle="--", label="Lanescape")
+        axes.set_xticks(list(places.values()), [particle_number(n) for _, n in groups])
+        for case in dict.fromkeys(c for c, _ in groups):
+            middle = statistics.mean(x for (c, _), x in places.items() if c == case)
+            axes.annotate(CASE_NAMES.get(case, case), (middle, 0.0), (0, -24), xycoords=("data", "axes fraction"), textcoords="offset points",
+                          ha="center", va="top", fontsize=12)
+        axes.tick_params(axis="x", length=0)
+        axes.set_ylim(0.0, top)
+        axes.set_ylabel("Time of peer /\ntime of Lanescape")
+        axes.set_title(f"{MODELS.get(model, model)}, {cores(t)}", loc="left")
+    grid[-1, 0].set_xlabel("Particles $N$", labelpad=26.0)
+    figure.get_layout_engine().set(hspace=0.06)
+    shared_legend(figure, grid[:, 0], 5)
+    save(figure, file)
+
+
+# ---- program
+
+def draw(options):
+    context, points, isa = read_bench(options.bench)
+    peers = read_peers(options.peers) if options.peers else []
+    try:
+        options.out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise Unusable(f"{options.out}: {error.strerror}") from error
+    draw_scaling(options.out / "scaling.png", points, peers, isa)
+    roof = [point for point in points if "flops_per_byte" in point and "gflops" in point]
+    shares = [point for point in points if "fraction_of_peak" in point]
+    if roof:
+        draw_roofline(options.out / "roofline.png", roof, peak_of(context, isa), isa)
+    elif shares:
+        draw_fraction(options.out / "roofline.png", shares, isa)
+    if any(row.get("ratio") is not None for row in peers):
+        draw_peers(options.out / "peers.png", peers)
+
+
+def main(arguments):
+    parser = Arguments(prog="plot_bench.py", description="Draws the benchmark of neighbour lists; see the head of this file.")
+    parser.add_argument("bench", metavar="BENCH.json")
+    parser.add_argument("--peers", metavar="PEERS.json", help="of bench/peers/lammps.py")
+    parser.add_argument("--out", metavar="DIR", type=Path, required=True, help="the folder of the figures")
+    try:
+        draw(parser.parse_args(arguments))
+    except Unusable as error:
+        print(f"plot_bench.py: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
