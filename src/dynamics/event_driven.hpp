@@ -44,8 +44,11 @@ class EventDriven {
   // Everything to one time, lists and calendar anew. The counts at which this happens influence the bits of what follows.
   void resynchronise();
 
-  // 256 per particle, at most 100,000: long before a time has lost four digits, and seldom enough to cost little.
-  std::uint64_t resync_interval() const { return std::min<std::uint64_t>(100'000, 256 * size()); }
+  // 256 per particle, at most 100,000, but 4 per particle at least: long before a time has lost four digits, and seldom enough to
+  // cost little, as each takes O(N).
+  std::uint64_t resync_interval() const {
+    return std::max<std::uint64_t>(std::min<std::uint64_t>(100'000, 256 * size()), 4 * size());
+  }
 
   std::size_t size() const { return spheres_.size(); }
   const Box& box() const { return box_; }
