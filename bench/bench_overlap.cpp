@@ -1,5 +1,5 @@
-// Does a whole configuration of hard spheres overlap? From scratch over all pairs, and over the path finder's list, on a liquid
-// without overlaps, so that no early exit helps: every available instruction set, and the scalar reference for scale.
+// Does a whole configuration of hard spheres overlap? From scratch over all pairs and by cells, and over the path finder's list, on
+// a liquid without overlaps, so that no early exit helps: every available instruction set, and the scalar reference for scale.
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 namespace lanescape::bench {
 namespace {
 
-enum class Form { all_pairs, list };
+enum class Form { all_pairs, cells, list };
 
 // What is wrong with these kernels on this liquid and on one with a particle pushed into its neighbour; empty if nothing is.
 std::string check(const Configuration& liquid, Isa isa) {
@@ -24,12 +24,14 @@ std::string check(const Configuration& liquid, Isa isa) {
   for (const Configuration* c : {&liquid, static_cast<const Configuration*>(&squeezed)}) {
     const ParticleLayout layout(c->species, 2);
     HardSphereLandscape landscape(c->box, layout, c->radii, isa);
-    HardSphereOverlap all(c->box, layout, c->radii, kernel_table(isa));
     const AlignedArray positions = layout.to_slots(c->positions);
     const auto expected = reference::overlaps(c->positions, c->radii, c->box.length);
-    if (all.any_overlap(positions) == expected.empty()) return "all pairs: wrong verdict";
+    for (const SpherePairSearch search : {SpherePairSearch::all_pairs, SpherePairSearch::cells}) {
+      HardSphereOverlap spheres(c->box, layout, c->radii, kernel_table(isa), search);
+      if (spheres.any_overlap(positions) == expected.empty()) return "from scratch: wrong verdict";
+      if (spheres.pairs_within(positions, 0.0).size() != expected.size()) return "from scratch: wrong number of overlaps";
+    }
     if (landscape.allowed(positions) != expected.empty()) return "list: wrong verdict";
-    if (all.pairs_within(positions, 0.0).size() != expected.size()) return "all pairs: wrong number of overlaps";
     if (landscape.find_contacts(positions).count != expected.size()) return "list: wrong number of overlaps";
   }
   return "";
@@ -40,10 +42,11 @@ void test_overlap(benchmark::State& state, Form form, std::size_t particles, dou
   if (const std::string wrong = check(liquid, isa); !wrong.empty()) return state.SkipWithError(wrong.c_str());
   const ParticleLayout layout(liquid.species, 2);
   HardSphereLandscape landscape(liquid.box, layout, liquid.radii, isa);
-  HardSphereOverlap all(liquid.box, layout, liquid.radii, kernel_table(isa));
+  HardSphereOverlap spheres(liquid.box, layout, liquid.radii, kernel_table(isa),
+                            form == Form::cells ? SpherePairSearch::cells : SpherePairSearch::all_pairs);
   const AlignedArray positions = layout.to_slots(liquid.positions);
   for (auto _ : state) {
-    bool overlap = form == Form::list ? !landscape.allowed(positions) : all.any_overlap(positions);
+    bool overlap = form == Form::list ? !landscape.allowed(positions) : spheres.any_overlap(positions);
     benchmark::DoNotOptimize(overlap);
     benchmark::ClobberMemory();
   }
@@ -59,8 +62,9 @@ void test_scalar_reference(benchmark::State& state, std::size_t particles, doubl
 }
 
 void register_all() {
-  for (const auto& [form, name] : {std::pair{Form::all_pairs, "all_pairs"}, std::pair{Form::list, "list"}})
-    for (const std::size_t particles : {108U, 256U, 500U})
+  for (const auto& [form, name] :
+       {std::pair{Form::all_pairs, "all_pairs"}, std::pair{Form::cells, "cells"}, std::pair{Form::list, "list"}})
+    for (const std::size_t particles : {108U, 256U, 500U, 1000U, 2000U, 4000U})
       for (const Isa isa : available_isas())
         benchmark::RegisterBenchmark(fmt::format("overlap/{}/N:{}/phi:0.50/{}", name, particles, to_string(isa)).c_str(),
                                      test_overlap, form, particles, 0.50, isa)

@@ -29,6 +29,7 @@ struct KernelTable {
   bool (*sphere_any_overlap)(const SphereInput&) noexcept;
   std::size_t (*sphere_pairs_within)(const SphereInput&, double reach, SpherePair* out, std::size_t capacity) noexcept;
   double (*sphere_smallest_gap)(const SphereInput&) noexcept;
+  std::size_t sphere_pair_columns;  // see SpherePair
   // The same over a list: whether any overlap, and which; their number.
   bool (*sphere_list_any_overlap)(const SphereList&, const double* positions, std::size_t slots) noexcept;
   std::size_t (*sphere_list_contacts)(const SphereList&, const double* positions, std::size_t slots,

@@ -10,7 +10,7 @@
 namespace lanescape::kernels::LANESCAPE_ISA {
 namespace {
 
-constexpr std::size_t row_tile = 4;
+constexpr std::size_t row_tile = sphere_pair_rows;
 constexpr double whole_box = 4294967296.0;
 // What the filter may be wrong by: a few roundings of 2^-24 each in r^2 and s^2, and a few units of the fractions, of which
 // one comes from each rounding and the rest from coordinates up to 10^6 boxes away.

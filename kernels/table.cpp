@@ -18,6 +18,7 @@ constinit const KernelTable table{
     .sphere_any_overlap = sphere_any_overlap,
     .sphere_pairs_within = sphere_pairs_within,
     .sphere_smallest_gap = sphere_smallest_gap,
+    .sphere_pair_columns = float_lanes,
     .sphere_list_any_overlap = sphere_list_any_overlap,
     .sphere_list_contacts = sphere_list_contacts,
     .sphere_contact_forces = sphere_contact_forces,

@@ -110,6 +110,9 @@ struct SphereInput {
   std::size_t float_slots;  // slots rounded up to 16
 };
 
+// Over all pairs the order of pairs (i, j) is that of (i / sphere_pair_rows, j / KernelTable::sphere_pair_columns, i, j): the tiles
+// the kernel looks at. Sums over pairs have the same bits in no other order.
+inline constexpr std::size_t sphere_pair_rows = 4;
 struct SpherePair {
   std::int32_t first, second;  // slots, first < second
 };

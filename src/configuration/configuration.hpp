@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct Configuration {
   std::vector<double> radii{};    // N, hard spheres only, else empty [sigma]
 
   std::size_t size() const { return species.size(); }
+  std::array<double, 3> position(std::size_t i) const { return {positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]}; }
   // Every particle into the box.
   void wrap() {
     for (std::size_t k = 0; k < positions.size(); ++k) positions[k] = box.wrapped(k % 3, positions[k]);

@@ -15,8 +15,7 @@
 namespace lanescape {
 namespace {
 
-constexpr std::size_t max_particles = 100'000;  // of what all-pairs evaluation can be asked to do
-constexpr std::size_t max_spheres = 1'000'000;
+constexpr std::size_t max_particles = 4'000'000;  // a gigabyte of state and lists
 constexpr double max_density = 100.0;
 constexpr double max_packing_fraction = 0.74;  // pi/(3 sqrt 2) = 0.7405 is close packing
 constexpr double rounding_margin = 1e-12;
@@ -40,9 +39,9 @@ std::vector<int> species_in_proportion(const Mixture& model, std::size_t particl
   return species;
 }
 
-void check_particles(std::size_t particles, std::size_t most) {
-  if (particles == 0 || particles > most)
-    throw_bad_input(fmt::format("{} particles are not allowed: from 1 to {}", particles, most));
+void check_particles(std::size_t particles) {
+  if (particles == 0 || particles > max_particles)
+    throw_bad_input(fmt::format("{} particles are not allowed: from 1 to {}", particles, max_particles));
 }
 
 // The occupied sites of n^3 cubic cells of four sites each.
@@ -163,7 +162,7 @@ double largest_packing_fraction(const Packing& packing) {
 }  // namespace
 
 Configuration fcc_start(const Mixture& model, std::size_t particles, double density, std::uint64_t seed) {
-  check_particles(particles, max_particles);
+  check_particles(particles);
   if (!(density > 0.0 && density <= max_density))
     throw_bad_input(fmt::format("density {} is not allowed: above 0 and at most {}", density, max_density));
   const double length = std::cbrt(static_cast<double>(particles) / density);
@@ -175,7 +174,7 @@ Configuration fcc_start(const Mixture& model, std::size_t particles, double dens
 
 Configuration hard_sphere_start(const HardSphereModel& model, std::size_t particles, double packing_fraction,
                                 Arrangement arrangement, std::uint64_t seed) {
-  check_particles(particles, max_spheres);
+  check_particles(particles);
   if (!(packing_fraction > 0.0 && packing_fraction <= max_packing_fraction))
     throw_bad_input(
         fmt::format("packing fraction {} is not allowed: above 0 and at most {}", packing_fraction, max_packing_fraction));
@@ -190,7 +189,7 @@ Configuration hard_sphere_start(const HardSphereModel& model, std::size_t partic
 
 double largest_lattice_packing_fraction(const HardSphereModel& model, std::size_t particles, Arrangement arrangement,
                                         std::uint64_t seed) {
-  check_particles(particles, max_spheres);
+  check_particles(particles);
   model.check();
   return largest_packing_fraction(Packing(model, particles, arrangement, seed));
 }

@@ -10,15 +10,16 @@ namespace lanescape {
 
 // `particles` on a face-centred cubic lattice in a cube of the given number density [sigma^-3], species drawn at random in the
 // model's proportions (floor(N fraction) of each, the first takes the rest). Where N is not 4 n^3 the sites left empty are
-// drawn at random too. Throws Error(bad_input) for zero or absurd counts and densities.
+// drawn at random too. Throws Error(bad_input) for no or over four million
+// particles and absurd densities.
 Configuration fcc_start(const Mixture& model, std::size_t particles, double density, std::uint64_t seed);
 
 // Where species go on a lattice: anywhere, or each in its own part of the box along x, the largest spheres first.
 enum class Arrangement { random, halves };
 
 // Hard spheres on the sites of fcc_start(), radii included, in the cube that gives this packing fraction with the spheres there
-// are. Throws Error(bad_input) for no or over a million particles, a packing fraction outside (0, 0.74], and one at which spheres
-// on the lattice overlap.
+// are. Throws Error(bad_input) for no or over four million particles, a packing fraction outside (0, 0.74], and one at which
+// spheres on the lattice overlap.
 Configuration hard_sphere_start(const HardSphereModel& model, std::size_t particles, double packing_fraction,
                                 Arrangement arrangement, std::uint64_t seed);
 // The largest packing fraction that hard_sphere_start() takes with the same arguments: spheres touch, less 1e-12 for rounding.

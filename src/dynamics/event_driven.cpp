@@ -199,6 +199,14 @@ void EventDriven::resynchronise() {
   fresh_ = true;
 }
 
+inline bool EventDriven::Encounters::possible(const std::array<double, 3>& at, double radius, const std::array<double, 3>& other,
+                                              double other_radius) const {
+  const double dx = nearest(other[0] - at[0], box.length[0]), dy = nearest(other[1] - at[1], box.length[1]),
+               dz = nearest(other[2] - at[2], box.length[2]);
+  const double reach = (radius + other_radius) * swollen + shells;
+  return dx * dx + dy * dy + dz * dz < reach * reach;
+}
+
 // As large as lists of the wanted length and the nearest-image rule allow: two particles, each up to a shell away from where
 // their lists were made, must still be nearer than half the box.
 void EventDriven::choose_shell() {
@@ -220,10 +228,37 @@ void EventDriven::make_lists() {
     grid_.insert(static_cast<std::int32_t>(i), references_[i]);
   }
   lists_.assign(size() * list_capacity_, 0);
-  for (std::size_t i = 0; i < size(); ++i) {
-    list_sizes_[i] = 0;
-    for_each_neighbour(i, [&](std::int32_t j) { append(i, j); });
+  list_sizes_.assign(size(), 0);
+  // As for_each_neighbour() would, but cell by cell from copies that lie side by side: particles near in space are far apart in
+  // memory.
+  struct Copy {
+    std::array<double, 3> reference;
+    double radius;
+    std::int32_t particle;
+  };
+  std::vector<Copy> copies;
+  std::vector<std::size_t> first;  // of each cell, and the end
+  for (std::size_t cell = 0; cell < grid_.cells(); ++cell) {
+    first.push_back(copies.size());
+    grid_.for_each_in(cell, [&](std::int32_t j) {
+      copies.push_back({references_[static_cast<std::size_t>(j)], spheres_[static_cast<std::size_t>(j)].radius, j});
+    });
   }
+  first.push_back(copies.size());
+  const Encounters encounters = this->encounters();
+  std::vector<std::int32_t> found;
+  for (std::size_t cell = 0; cell < grid_.cells(); ++cell)
+    for (std::size_t self = first[cell]; self < first[cell + 1]; ++self) {
+      found.clear();
+      for (const std::uint32_t other : grid_.cells_near(cell))
+        for (std::size_t k = first[other]; k < first[other + 1]; ++k)
+          if (encounters.possible(copies[self].reference, copies[self].radius, copies[k].reference, copies[k].radius) && k != self)
+            found.push_back(copies[k].particle);
+      const auto i = static_cast<std::size_t>(copies[self].particle);
+      while (found.size() > list_capacity_) grow_lists();
+      std::copy(found.begin(), found.end(), list(i));
+      list_sizes_[i] = static_cast<std::int32_t>(found.size());
+    }
 }
 
 void EventDriven::make_calendar() {
@@ -235,15 +270,11 @@ void EventDriven::make_calendar() {
 // Calls visit(j) for all that can touch particle i before it or they leave their shells.
 template <class Visit>
 void EventDriven::for_each_neighbour(std::size_t i, Visit visit) {
-  const double swollen = growth_ > 0.0 ? 1.0 + growth_ * horizon_ : 1.0;
+  const Encounters encounters = this->encounters();
   const auto& at = references_[i];
   grid_.for_each_near(at, [&](std::int32_t candidate) {
     const auto j = static_cast<std::size_t>(candidate);
-    const auto& other = references_[j];
-    const double dx = nearest(other[0] - at[0], box_.length[0]), dy = nearest(other[1] - at[1], box_.length[1]),
-                 dz = nearest(other[2] - at[2], box_.length[2]);
-    const double reach = (spheres_[i].radius + spheres_[j].radius) * swollen + 2.0 * shell_;
-    if (dx * dx + dy * dy + dz * dz < reach * reach && i != j) visit(candidate);
+    if (encounters.possible(at, spheres_[i].radius, references_[j], spheres_[j].radius) && i != j) visit(candidate);
   });
 }
 

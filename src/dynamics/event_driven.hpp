@@ -44,8 +44,11 @@ class EventDriven {
   // Everything to one time, lists and calendar anew. The counts at which this happens influence the bits of what follows.
   void resynchronise();
 
-  // 256 per particle, at most 100,000: long before a time has lost four digits, and seldom enough to cost little.
-  std::uint64_t resync_interval() const { return std::min<std::uint64_t>(100'000, 256 * size()); }
+  // 256 per particle, at most 100,000, but 4 per particle at least: long before a time has lost four digits, and seldom enough to
+  // cost little, as each takes O(N).
+  std::uint64_t resync_interval() const {
+    return std::max<std::uint64_t>(std::min<std::uint64_t>(100'000, 256 * size()), 4 * size());
+  }
 
   std::size_t size() const { return spheres_.size(); }
   const Box& box() const { return box_; }
@@ -84,6 +87,13 @@ class EventDriven {
     std::uint32_t partner_collisions;  // when the event was predicted: more by now, and it will not happen
   };
   static constexpr std::int32_t none = -1;
+  // Of two with references inside the box, whether they can touch before either leaves its shell.
+  struct Encounters {
+    Box box;
+    double swollen, shells;  // radii until the horizon, in radii; two shells [sigma]
+
+    bool possible(const std::array<double, 3>& at, double radius, const std::array<double, 3>& other, double other_radius) const;
+  };
 
   void choose_shell();
   void make_lists();
@@ -93,6 +103,7 @@ class EventDriven {
   void bring_to_now(std::size_t i);
   void wrap(std::size_t i);
   std::int32_t* list(std::size_t i) { return lists_.data() + i * list_capacity_; }
+  Encounters encounters() const { return {box_, growth_ > 0.0 ? 1.0 + growth_ * horizon_ : 1.0, 2.0 * shell_}; }
   template <class Visit>
   void for_each_neighbour(std::size_t i, Visit visit);
   void append(std::size_t i, std::int32_t neighbour);

@@ -75,6 +75,7 @@ class HardEndPointGenerator {
   std::uint64_t phase_start_ = 0;
   double virial_start_ = 0.0, time_start_ = 0.0;
   std::vector<double> pair_start_;  // user's order; empty until the pair's first configuration is taken
+  double look_again_ = 0.0;         // the distance cannot be reached before
   double pair_start_time_ = 0.0;
   std::vector<EndPointPair> pairs_;
   std::vector<double> scratch_;

@@ -27,33 +27,6 @@ ImageSearch image_search(const Box& box, double cutoff, ImageRule rule) {
   return one_more_at_most ? ImageSearch::two_nearest : ImageSearch::lattice;
 }
 
-void check_separations(const Configuration& configuration, const LennardJonesModel& model) {
-  for (std::size_t k = 0; k < configuration.positions.size(); ++k)
-    if (!std::isfinite(configuration.positions[k]))
-      throw_bad_input(fmt::format("particle {}: coordinate {} is not finite", k / 3, configuration.positions[k]));
-  constexpr double allowed = 0.3;
-  double worst = allowed;
-  std::size_t worst_i = 0, worst_j = 0;
-  for (std::size_t i = 0; i < configuration.size(); ++i)
-    for (std::size_t j = i + 1; j < configuration.size(); ++j) {
-      double r2 = 0.0;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double d = configuration.positions[3 * i + axis] - configuration.positions[3 * j + axis];
-        r2 += std::pow(configuration.box.nearest_image(axis, d), 2);
-      }
-      const double sigma = model.sigma[model.pair(static_cast<std::size_t>(configuration.species[i]),
-                                                  static_cast<std::size_t>(configuration.species[j]))];
-      if (r2 < worst * worst * sigma * sigma) {
-        worst = std::sqrt(r2) / sigma;
-        worst_i = i;
-        worst_j = j;
-      }
-    }
-  if (worst < allowed)
-    throw_bad_input(fmt::format("particles {} and {} overlap: their distance is {:.6g} sigma, at least {} is needed", worst_i,
-                                worst_j, worst, allowed));
-}
-
 void check_cutoff(const LennardJonesModel& model, const Box& box) {
   if (model.images == ImageRule::minimum) return;
   const double cutoff = model.cutoff * *std::max_element(model.sigma.begin(), model.sigma.end());

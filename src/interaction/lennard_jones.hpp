@@ -28,7 +28,7 @@ inline constexpr int max_image_shells = 8;
 void check_cutoff(const LennardJonesModel& model, const Box& box);
 
 // Throws Error(bad_input) naming the closest pair if any two particles are nearer than 0.3 sigma_ab, where r^-12 has lost all
-// meaning, or the coordinate that is not finite. O(N^2).
+// meaning, or the coordinate that is not finite. O(N).
 void check_separations(const Configuration& configuration, const LennardJonesModel& model);
 
 // How pairs are found: over all of them, or over a neighbour list; or whichever is faster, by the number of particles.

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/box.hpp"
@@ -22,10 +23,17 @@ class CellGrid {
   // Calls visit(j) for every particle in the cell of `position` and those around it.
   template <class Visit>
   void for_each_near(const std::array<double, 3>& position, Visit visit) const {
-    const std::size_t cell = cell_of(position);
-    for (std::size_t k = cell * around_; k < (cell + 1) * around_; ++k)
-      for (std::int32_t j = first_[neighbours_[k]]; j >= 0; j = next_[static_cast<std::size_t>(j)]) visit(j);
+    for (const std::uint32_t cell : cells_near(cell_of(position))) for_each_in(cell, visit);
   }
+
+  std::size_t cells() const { return first_.size(); }
+  // Calls visit(j) for every particle in a cell, in the order in which for_each_near() comes by them.
+  template <class Visit>
+  void for_each_in(std::size_t cell, Visit visit) const {
+    for (std::int32_t j = first_[cell]; j >= 0; j = next_[static_cast<std::size_t>(j)]) visit(j);
+  }
+  // The cells that for_each_near() goes through for a position in this one, in that order.
+  std::span<const std::uint32_t> cells_near(std::size_t cell) const { return {neighbours_.data() + cell * around_, around_}; }
 
  private:
   std::size_t cell_of(const std::array<double, 3>& position) const;

@@ -1,35 +1,46 @@
 #include "observables/radial_distribution.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
+
+#include "neighbour/sorted_cells.hpp"
 
 namespace lanescape {
 
-RadialDistribution::RadialDistribution(const Box& box, const ParticleLayout& layout, std::size_t bins)
+double RadialDistribution::default_range(const Box& box, std::size_t particles) {
+  const double half = 0.5 * box.shortest();
+  return particles <= most_for_half_the_box ? half : std::min(half, range_of_large_systems);
+}
+
+RadialDistribution::RadialDistribution(const Box& box, const ParticleLayout& layout, std::size_t bins, double range)
     : box_(box),
       blocks_(layout.blocks()),
       slots_(layout.slots()),
       bins_(bins),
-      width_(0.5 * box.shortest() / static_cast<double>(bins)),
+      range_(range),
+      width_(range / static_cast<double>(bins)),
       counts_(blocks_.size() * blocks_.size() * bins, 0) {}
 
 void RadialDistribution::add(const AlignedArray& position) {
   ++samples_;
-  for (std::size_t a = 0; a < blocks_.size(); ++a)
-    for (std::size_t b = a; b < blocks_.size(); ++b) {
-      std::uint64_t* counts = counts_.data() + (a * blocks_.size() + b) * bins_;
-      for (std::size_t i = blocks_[a].begin; i < blocks_[a].begin + blocks_[a].count; ++i)
-        for (std::size_t j = a == b ? i + 1 : blocks_[b].begin; j < blocks_[b].begin + blocks_[b].count; ++j) {
-          double r2 = 0.0;
-          for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double d = position[axis * slots_ + j] - position[axis * slots_ + i];
-            r2 += std::pow(box_.nearest_image(axis, d), 2);
-          }
-          const auto bin = static_cast<std::size_t>(std::sqrt(r2) / width_);
-          if (bin < bins_) ++counts[bin];
-        }
+  std::vector<SortedCells::Point> points;
+  std::vector<std::size_t> species_of(slots_, 0);
+  for (std::size_t s = 0; s < blocks_.size(); ++s)
+    for (std::size_t slot = blocks_[s].begin; slot < blocks_[s].begin + blocks_[s].count; ++slot) {
+      points.push_back({{position[slot], position[slots_ + slot], position[2 * slots_ + slot]}, static_cast<std::uint32_t>(slot)});
+      species_of[slot] = s;
     }
+  SortedCells(box_, range_, std::move(points)).for_each_pair([&](std::size_t i, std::size_t j, double) {
+    double r2 = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      r2 += std::pow(box_.nearest_image(axis, position[axis * slots_ + j] - position[axis * slots_ + i]), 2);
+    const auto bin = static_cast<std::size_t>(std::sqrt(r2) / width_);
+    const auto [a, b] = std::minmax(species_of[i], species_of[j]);
+    if (bin < bins_) ++counts_[(a * blocks_.size() + b) * bins_ + bin];
+  });
 }
 
 double RadialDistribution::value(std::size_t a, std::size_t b, std::size_t bin) const {

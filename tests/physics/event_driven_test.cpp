@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "configuration/hard_sphere_model.hpp"
+#include "configuration/lattice.hpp"
 #include "core/error.hpp"
 #include "core/run_monitor.hpp"
 #include "dispatch/isa.hpp"
@@ -172,6 +173,14 @@ TEST(EventDriven, AStateReadAtAResynchronisationGoesOnWithTheSameBits) {
   EXPECT_EQ(resumed.collisions(), whole.collisions());
   EXPECT_EQ(resumed.virial(), whole.virial());
   EXPECT_EQ(resumed.time(), whole.time());
+}
+
+TEST(EventDriven, IsResynchronisedAtCountsThatSuitTheNumberOfParticles) {
+  for (const auto& [particles, collisions] : {std::pair{100U, 25'600U}, {1'000U, 100'000U}, {30'000U, 120'000U}})
+    EXPECT_EQ(EventDriven(hard_sphere_start(hard_sphere(), particles, 0.1, Arrangement::random, 1),
+                          std::vector<double>(particles, 1.0), kernel_table(available_isas().back()))
+                  .resync_interval(),
+              collisions);
 }
 
 // A sphere a rounding error outside the box belongs at the face, on whichever side it is put; bringing it in twice is once.

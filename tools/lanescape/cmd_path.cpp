@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "configuration/rounding_overlaps.hpp"
 #include "core/error.hpp"
 #include "end_point_options.hpp"
+#include "interaction/rounding_overlaps.hpp"
 #include "io/extended_xyz.hpp"
 #include "plot.hpp"
 #include "run/path_run.hpp"

@@ -4,9 +4,9 @@
 #include <iostream>
 #include <utility>
 
-#include "configuration/rounding_overlaps.hpp"
 #include "core/error.hpp"
 #include "interaction/lennard_jones.hpp"
+#include "interaction/rounding_overlaps.hpp"
 #include "io/extended_xyz.hpp"
 #include "io/model_file.hpp"
 #include "program.hpp"

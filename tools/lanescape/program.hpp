@@ -138,7 +138,7 @@ Configuration read_first_frame(const std::string& file, const LennardJonesModel&
 // model's.
 Configuration read_hard_frame(const std::string& file);
 Configuration read_hard_frame(const std::string& file, const HardSphereModel& model);
-// remove_rounding_overlaps() of configuration/ with the file's name before what it says.
+// remove_rounding_overlaps() of interaction/ with the file's name before what it says.
 double remove_rounding_overlaps_in(const std::string& file, Configuration& configuration, double tolerance);
 // check_separations() of interaction/ with the file's name before what it says.
 void check_separations_in(const std::string& file, const Configuration& configuration, const LennardJonesModel& model);

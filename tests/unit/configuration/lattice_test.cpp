@@ -146,13 +146,19 @@ TEST(HardSphereStart, OptionsOutOfRangeAreRefused) {
     const std::string message = refusal([&] { hard_sphere_start(hard_sphere(), 108, bad, Arrangement::random, 1); });
     EXPECT_NE(message.find("is not allowed: above 0 and at most 0.74"), std::string::npos) << message;
   }
-  for (const std::size_t bad : {0U, 1'000'001U}) {
-    const std::string message = refusal([&] { hard_sphere_start(hard_sphere(), bad, 0.3, Arrangement::random, 1); });
-    EXPECT_NE(message.find("particles are not allowed: from 1 to 1000000"), std::string::npos) << message;
-  }
+  for (const std::size_t bad : {0U, 4'000'001U})
+    for (const std::string& message : {refusal([&] { hard_sphere_start(hard_sphere(), bad, 0.3, Arrangement::random, 1); }),
+                                       refusal([&] { fcc_start(kob_andersen(), bad, 1.2, 1); })})
+      EXPECT_NE(message.find("particles are not allowed: from 1 to 4000000"), std::string::npos) << message;
   HardSphereModel broken = hard_sphere();
   broken.diameters.clear();
   refusal([&] { hard_sphere_start(broken, 108, 0.3, Arrangement::random, 1); });
+}
+
+TEST(FccStart, AMillionParticlesAreAllowed) {
+  const Configuration start = fcc_start(kob_andersen(), 1'000'000, 1.2, 1);
+  EXPECT_EQ(start.size(), 1'000'000u);
+  EXPECT_EQ(std::count(start.species.begin(), start.species.end(), 1), 200'000);
 }
 
 TEST(HardSphereStart, AMillionSpheresAreAllowed) {

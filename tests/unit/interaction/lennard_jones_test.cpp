@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "configuration/lattice.hpp"
 #include "core/error.hpp"
 #include "dispatch/isa.hpp"
 #include "verification/cases.hpp"
@@ -229,6 +230,23 @@ TEST(CheckSeparations, MeasuresInTheSigmaOfThePair) {
   const std::vector<double> positions = {1.0, 1.0, 1.0, 1.26, 1.0, 1.0};
   EXPECT_EQ(bad_input_of([&] { check_separations({cube(8.0), {0, 1}, positions}, kob_andersen()); }), "");
   EXPECT_NE(bad_input_of([&] { check_separations({cube(8.0), {1, 1}, positions}, kob_andersen()); }), "");
+}
+
+TEST(CheckSeparations, NamesTheFirstOfPairsThatAreEquallyClose) {
+  const Configuration configuration{
+      cube(8.0), std::vector<int>(6, 0), {5, 5, 5, 1, 1, 1, 3, 3, 3, 3.125, 3, 3, 1.125, 1, 1, 5.125, 5, 5}};
+  EXPECT_NE(bad_input_of([&] { check_separations(configuration, lennard_jones()); }).find("particles 0 and 5"), std::string::npos);
+}
+
+TEST(CheckSeparations, FindsTheOnePairThatOverlapsAmongMany) {
+  Configuration liquid = fcc_start(kob_andersen(), 10'000, 1.2, 1);
+  EXPECT_EQ(bad_input_of([&] { check_separations(liquid, kob_andersen()); }), "");
+  for (const std::size_t i : {0U, 4999U, 9998U}) {
+    Configuration squeezed = liquid;
+    for (std::size_t axis = 0; axis < 3; ++axis) squeezed.positions[3 * i + axis] = liquid.positions[3 * 9999 + axis] + 0.1;
+    EXPECT_NE(bad_input_of([&] { check_separations(squeezed, kob_andersen()); }).find(std::to_string(i) + " and 9999"),
+              std::string::npos);
+  }
 }
 
 TEST(CheckSeparations, AcceptsEverySharedCase) {

@@ -1,4 +1,4 @@
-#include "configuration/rounding_overlaps.hpp"
+#include "interaction/rounding_overlaps.hpp"
 
 #include <gtest/gtest.h>
 
