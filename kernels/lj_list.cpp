@@ -14,6 +14,9 @@ namespace {
 
 enum class Output { energy, force, gradient, stress };
 
+// How far ahead of its use a list that does not fit a cache is asked for; the processor's own look-ahead ends at each page.
+constexpr std::size_t list_prefetch = 192;
+
 // What is summed over the neighbours of one species of one row.
 struct RowSums {
   Displacement gradient;
@@ -24,6 +27,7 @@ template <Output output, bool masked>
 LANESCAPE_INLINE void pair_vector(const double* points, const std::uint32_t* places, const Displacement& row, const Potential& u,
                                   Mask valid, RowSums& sums, Totals& totals) {
   Displacement d;
+  prefetch(places + list_prefetch);
   gather_points(points, places, d.x, d.y, d.z);
   d = {d.x - row.x, d.y - row.y, d.z - row.z};
   const Vector r2 = squared_length(d);

@@ -192,6 +192,8 @@ inline Vector count_up(Vector sum, Mask m) noexcept {
 #endif
 }
 
+inline void prefetch(const void* p) noexcept { __builtin_prefetch(p); }
+
 // Bit k of the result is lane k of the mask.
 inline unsigned bits(Mask m) noexcept {
 #if defined(LANESCAPE_ISA_AVX512)

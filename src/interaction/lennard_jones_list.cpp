@@ -43,9 +43,10 @@ void ListSums::clear_padding(AlignedArray& gradient) const {
 }
 
 void ListSums::put_gradient(std::size_t block, const double* records, AlignedArray& gradient) const {
-  const std::size_t slots = gradient.size() / 3, rows = list_.rows_of(block).row_count;
-  for (std::size_t k = 0; k < rows; ++k) {
-    double* g = gradient.data() + list_.slot(block, k);
+  const std::size_t slots = gradient.size() / 3;
+  const kernels::NeighbourRows rows = list_.rows_of(block);
+  for (std::size_t k = 0; k < rows.row_count; ++k) {
+    double* g = gradient.data() + list_.slot_at(rows.rows[k]);
     g[0] = records[kernels::point_width * k];
     g[slots] = records[kernels::point_width * k + 1];
     g[2 * slots] = records[kernels::point_width * k + 2];

@@ -1,6 +1,7 @@
 #include "neighbour/neighbour_list.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/parallel.hpp"
 
@@ -32,11 +33,16 @@ NeighbourList::NeighbourList(const Box& box, const ParticleLayout& layout, const
       own_images_in_reach_(std::any_of(reaches_.begin(), reaches_.end(), [&](double reach) { return reach >= box.shortest(); })),
       threads_(threads),
       points_(box, layout, margins(reaches_, layout.blocks().size()), threads),
-      scratch_(static_cast<std::size_t>(threads)) {}
+      neighbours_(static_cast<std::size_t>(threads)) {}
 
 kernels::NeighbourRows NeighbourList::rows_of(std::size_t block) const {
   const Block& b = blocks_[block];
-  return {points_.points(), b.rows.data(), b.rows.size(), b.neighbours.data(), b.lengths.data(), points_.species()};
+  return {.points = points_.points(),
+          .rows = points_.rows(b.species).data() + b.first_row,
+          .row_count = b.row_count,
+          .neighbours = neighbours_[b.part].data() + b.first_neighbour,
+          .lengths = lengths_.data() + b.first_segment,
+          .species_count = points_.species()};
 }
 
 void NeighbourList::update(const AlignedArray& positions) {
@@ -65,82 +71,85 @@ void NeighbourList::rebuild(const AlignedArray& positions) {
   points_.sort(positions);
   cut_into_blocks();
   for_each_part(threads_, [&](int part) {
-    for (std::size_t b = part_begin(blocks_.size(), part, threads_); b < part_begin(blocks_.size(), part + 1, threads_); ++b)
-      fill(blocks_[b], scratch_[static_cast<std::size_t>(part)]);
+    const auto p = static_cast<std::size_t>(part);
+    std::size_t end = 0;
+    for (std::size_t b = part_begin(blocks_.size(), part, threads_); b < part_begin(blocks_.size(), part + 1, threads_); ++b) {
+      fill(blocks_[b], p, end);
+      end += blocks_[b].padded_neighbours;
+    }
   });
   share_out();
 }
 
 void NeighbourList::cut_into_blocks() {
-  std::size_t count = 0;
-  for (std::size_t s = 0; s < points_.species(); ++s) count += (points_.rows(s).size() + block_rows - 1) / block_rows;
-  blocks_.resize(count);
-  auto block = blocks_.begin();
+  blocks_.clear();
+  std::size_t segments = 0;
   for (std::size_t s = 0; s < points_.species(); ++s) {
-    const std::vector<std::uint32_t>& rows = points_.rows(s);
-    for (std::size_t first = 0; first < rows.size(); first += block_rows, ++block) {
-      block->species = s;
-      block->rows.clear();
-      for (std::size_t k = first; k < std::min(first + block_rows, rows.size()); ++k)
-        block->rows.push_back(static_cast<std::uint32_t>(kernels::point_width * rows[k]));
+    const std::size_t rows = points_.rows(s).size();
+    for (std::size_t first = 0; first < rows; first += block_rows) {
+      const std::size_t count = std::min(block_rows, rows - first);
+      blocks_.push_back({s, first, count, segments, 0, 0, 0});
+      segments += count * points_.species();
     }
   }
+  lengths_.resize(segments);
 }
 
 std::size_t NeighbourList::without_own_images(std::uint32_t place, std::uint32_t* neighbours, std::size_t count) const {
   if (!own_images_in_reach_) return count;
-  const auto slot = [&](std::uint32_t of) { return points_.slot(of / kernels::point_width); };
   return static_cast<std::size_t>(
-      std::remove_if(neighbours, neighbours + count, [&](std::uint32_t other) { return slot(other) == slot(place); }) - neighbours);
+      std::remove_if(neighbours, neighbours + count, [&](std::uint32_t other) { return slot_at(other) == slot_at(place); }) -
+      neighbours);
 }
 
-void NeighbourList::fill(Block& block, std::vector<std::uint32_t>& found) const {
-  block.lengths.clear();
-  std::size_t end = 0;
-  for (const std::uint32_t place : block.rows) {
-    const double* position = points_.points() + place;
-    for (std::size_t s = 0; s < points_.species(); ++s) {
+void NeighbourList::fill(Block& block, std::size_t part, std::size_t begin) {
+  AlignedVector<std::uint32_t>& neighbours = neighbours_[part];
+  const AlignedVector<std::uint32_t>& rows = points_.rows(block.species);
+  std::uint32_t* length = lengths_.data() + block.first_segment;
+  std::size_t end = begin;
+  for (std::size_t k = block.first_row; k < block.first_row + block.row_count; ++k) {
+    const double* position = points_.points() + rows[k];
+    for (std::size_t s = 0; s < points_.species(); ++s, ++length) {
       const kernels::NeighbourQuery query{{position[0], position[1], position[2]},
                                           reaches_[block.species * points_.species() + s],
-                                          place / static_cast<std::uint32_t>(kernels::point_width)};
-      std::size_t count = 0;
-      while ((count = table_->points_within(points_.grid(s), query, found.data() + end, found.size() - end)) > found.size() - end)
-        found.resize(2 * found.size() + 1024);
-      count = without_own_images(place, found.data() + end, count);
-      if (found.size() < end + padded(count)) found.resize(end + padded(count));
-      std::fill_n(found.begin() + static_cast<std::ptrdiff_t>(end + count), padded(count) - count, place);
-      block.lengths.push_back(static_cast<std::uint32_t>(count));
+                                          rows[k] / static_cast<std::uint32_t>(kernels::point_width)};
+      const auto search = [&] {
+        return table_->points_within(points_.grid(s), query, neighbours.data() + end, neighbours.size() - end);
+      };
+      std::size_t count = search();
+      for (; count + kernels::slot_padding > neighbours.size() - end; count = search())
+        neighbours.resize(neighbours.size() + neighbours.size() / 4 + 4096);
+      count = without_own_images(rows[k], neighbours.data() + end, count);
+      // Whole vectors: what is added is never counted.
+      std::fill_n(neighbours.begin() + static_cast<std::ptrdiff_t>(end + count), padded(count) - count, rows[k]);
+      *length = static_cast<std::uint32_t>(count);
       end += padded(count);
     }
   }
-  block.neighbours.assign(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(end));
+  block.part = part;
+  block.first_neighbour = begin;
+  block.padded_neighbours = end - begin;
 }
 
 void NeighbourList::share_out() {
   std::size_t total = 0, part = 0, so_far = 0;
-  for (const Block& block : blocks_) total += block.neighbours.size();
+  for (const Block& block : blocks_) total += block.padded_neighbours;
   first_blocks_.assign(static_cast<std::size_t>(threads_) + 1, blocks_.size());
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     // A part begins with the block in whose first half its share begins.
     while (part < static_cast<std::size_t>(threads_) &&
-           so_far + blocks_[b].neighbours.size() / 2 >= part_begin(total, static_cast<int>(part), threads_))
+           so_far + blocks_[b].padded_neighbours / 2 >= part_begin(total, static_cast<int>(part), threads_))
       first_blocks_[part++] = b;
-    so_far += blocks_[b].neighbours.size();
+    so_far += blocks_[b].padded_neighbours;
   }
 }
 
-std::size_t NeighbourList::neighbours() const {
-  std::size_t count = 0;
-  for (const Block& block : blocks_)
-    for (const std::uint32_t length : block.lengths) count += length;
-  return count;
-}
+std::size_t NeighbourList::neighbours() const { return std::accumulate(lengths_.begin(), lengths_.end(), std::size_t{0}); }
 
 std::size_t NeighbourList::memory() const {
-  std::size_t bytes = points_.memory() + made_at_.capacity() * sizeof(double);
-  for (const Block& block : blocks_)
-    bytes +=
-        sizeof(Block) + (block.rows.capacity() + block.neighbours.capacity() + block.lengths.capacity()) * sizeof(std::uint32_t);
+  std::size_t bytes = points_.memory() + made_at_.capacity() * sizeof(double) + blocks_.capacity() * sizeof(Block) +
+                      lengths_.capacity() * sizeof(std::uint32_t);
+  for (const auto& neighbours : neighbours_) bytes += neighbours.capacity() * sizeof(std::uint32_t);
   return bytes;
 }
 

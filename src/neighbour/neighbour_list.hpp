@@ -35,9 +35,8 @@ class NeighbourList {
   kernels::NeighbourRows rows_of(std::size_t block) const;
   // The most rows a block has.
   static constexpr std::size_t block_rows = 32;
-  // The slot of the particle that the point at a place is, or is an image of; and of a row's.
+  // The slot of the particle that the point at a place is, or is an image of.
   std::uint32_t slot_at(std::uint32_t place) const { return points_.slot(place / kernels::point_width); }
-  std::uint32_t slot(std::size_t block, std::size_t row) const { return slot_at(blocks_[block].rows[row]); }
   // Blocks [first_block(part), first_block(part + 1)) are about as much work for every part, one per thread.
   std::size_t first_block(int part) const { return first_blocks_[static_cast<std::size_t>(part)]; }
   int parts() const { return threads_; }
@@ -53,13 +52,15 @@ class NeighbourList {
 
  private:
   struct Block {
-    std::size_t species;
-    std::vector<std::uint32_t> rows, neighbours, lengths;  // as in kernels::NeighbourRows
+    std::size_t species, first_row, row_count;  // rows of that species
+    std::size_t first_segment;                  // in lengths_
+    std::size_t part, first_neighbour;          // in neighbours_[part]
+    std::size_t padded_neighbours;
   };
   bool moved_too_far(const AlignedArray& positions) const;
   void rebuild(const AlignedArray& positions);
   void cut_into_blocks();
-  void fill(Block& block, std::vector<std::uint32_t>& found) const;
+  void fill(Block& block, std::size_t part, std::size_t begin);
   std::size_t without_own_images(std::uint32_t place, std::uint32_t* neighbours, std::size_t count) const;
   void share_out();
 
@@ -73,7 +74,8 @@ class NeighbourList {
   AlignedArray made_at_;
   std::vector<Block> blocks_;
   std::vector<std::size_t> first_blocks_;
-  std::vector<std::vector<std::uint32_t>> scratch_;  // of each part
+  std::vector<AlignedVector<std::uint32_t>> neighbours_;  // of all blocks that a part has made
+  AlignedVector<std::uint32_t> lengths_;                  // of all blocks
   std::uint64_t rebuilds_ = 0;
 };
 

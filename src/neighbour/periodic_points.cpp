@@ -66,29 +66,46 @@ std::size_t PeriodicPoints::Grid::cell_of(const std::array<double, 3>& position)
   return cell;
 }
 
+std::array<double, 3> PeriodicPoints::home_of(const AlignedArray& positions, std::size_t slot) const {
+  std::array<double, 3> home{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double x = positions[axis * layout_slots_ + slot], length = box_.length[axis];
+    if (!(x >= 0.0 && x < length)) home[axis] = -std::floor(x / length);
+  }
+  return home;
+}
+
+std::array<double, 3> PeriodicPoints::shift_of(const Image& image, const std::array<double, 3>& home) const {
+  std::array<double, 3> shift{};
+  for (std::size_t axis = 0; axis < 3; ++axis) shift[axis] = (image.boxes[axis] + home[axis]) * box_.length[axis];
+  return shift;
+}
+
 void PeriodicPoints::list_images(const AlignedArray& positions, const kernels::SpeciesBlock& block, const Grid& grid,
-                                 std::size_t begin, std::size_t end, std::vector<Image>& images) const {
+                                 std::size_t begin, std::size_t end, AlignedVector<Image>& images) const {
   images.clear();
   for (std::size_t slot = block.begin + begin; slot < block.begin + end; ++slot) {
-    std::array<double, 3> x{}, home{};  // position, and whole boxes that bring it into the box
-    std::array<int, 3> least{}, most{};
+    const std::array<double, 3> home = home_of(positions, slot);
+    std::array<double, 3> x{};
+    std::array<std::int16_t, 3> least{}, most{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double length = box_.length[axis];
       x[axis] = positions[axis * layout_slots_ + slot];
-      home[axis] = -std::floor(x[axis] / length);
       const double wrapped = x[axis] + home[axis] * length;
+      if (wrapped >= grid.margin && wrapped <= length - grid.margin) continue;
       // Of coordinates that are not finite there is the particle itself and nothing else.
       const double down = std::floor((wrapped + grid.margin) / length), up = std::floor((length + grid.margin - wrapped) / length);
-      least[axis] = down > 0.0 ? -static_cast<int>(down) : 0;
-      most[axis] = up > 0.0 ? static_cast<int>(up) : 0;
+      least[axis] = down > 0.0 ? static_cast<std::int16_t>(-down) : std::int16_t{0};
+      most[axis] = up > 0.0 ? static_cast<std::int16_t>(up) : std::int16_t{0};
     }
-    for (int a = least[0]; a <= most[0]; ++a)
-      for (int b = least[1]; b <= most[1]; ++b)
-        for (int c = least[2]; c <= most[2]; ++c) {
-          const std::array<double, 3> shift = {(a + home[0]) * box_.length[0], (b + home[1]) * box_.length[1],
-                                               (c + home[2]) * box_.length[2]};
-          const std::size_t cell = grid.cell_of({x[0] + shift[0], x[1] + shift[1], x[2] + shift[2]});
-          images.push_back({static_cast<std::uint32_t>(slot), static_cast<std::uint32_t>(cell), a == 0 && b == 0 && c == 0, shift});
+    Image image{static_cast<std::uint32_t>(slot), 0, {}};
+    auto& [a, b, c] = image.boxes;
+    for (a = least[0]; a <= most[0]; ++a)
+      for (b = least[1]; b <= most[1]; ++b)
+        for (c = least[2]; c <= most[2]; ++c) {
+          const std::array<double, 3> shift = shift_of(image, home);
+          image.cell = static_cast<std::uint32_t>(grid.cell_of({x[0] + shift[0], x[1] + shift[1], x[2] + shift[2]}));
+          images.push_back(image);
         }
   }
 }
@@ -139,13 +156,13 @@ void PeriodicPoints::sort_species(const AlignedArray& positions, std::size_t spe
     for (const Image& image : images_[p]) {
       const std::uint32_t place = places_[p][image.cell]++;
       slots_[place] = image.slot;
-      shifts_[place] = image.shift;
-      own[place - base] = image.own;
+      shifts_[place] = shift_of(image, home_of(positions, image.slot));
+      own[place - base] = image.boxes == std::array<std::int16_t, 3>{};
     }
   });
   grid.rows.clear();
   for (std::size_t k = base; k < next; ++k)
-    if (own[k - base]) grid.rows.push_back(static_cast<std::uint32_t>(k));
+    if (own[k - base]) grid.rows.push_back(static_cast<std::uint32_t>(kernels::point_width * k));
 }
 
 void PeriodicPoints::refresh(const AlignedArray& positions) {

@@ -37,8 +37,8 @@ class PeriodicPoints {
   std::uint32_t slot(std::size_t k) const { return slots_[k]; }
   // What was added to that particle's position: whole boxes [sigma].
   std::array<double, 3> shift(std::size_t k) const { return shifts_[k]; }
-  // The points of a species that are in the box, one for each particle, in the order of points.
-  const std::vector<std::uint32_t>& rows(std::size_t species) const { return grids_[species].rows; }
+  // Places of the points of a species that are in the box, one for each particle, in the order of points.
+  const AlignedVector<std::uint32_t>& rows(std::size_t species) const { return grids_[species].rows; }
 
   // A species' points as they were sorted, for kernels::KernelTable::points_within.
   kernels::PointGrid grid(std::size_t species) const;
@@ -47,20 +47,22 @@ class PeriodicPoints {
  private:
   struct Grid {
     double margin = 0.0;
-    kernels::PointGrid shape{};        // its pointers are set when it is handed out
-    std::vector<std::uint32_t> first;  // of each cell's points; one more at the end
-    std::vector<std::uint32_t> rows;
+    kernels::PointGrid shape{};          // its pointers are set when it is handed out
+    AlignedVector<std::uint32_t> first;  // of each cell's points; one more at the end
+    AlignedVector<std::uint32_t> rows;
     std::size_t cell_of(const std::array<double, 3>& position) const;
   };
   struct Image {
     std::uint32_t slot, cell;
-    bool own;  // the particle itself
-    std::array<double, 3> shift;
+    std::array<std::int16_t, 3> boxes;  // from the particle's own point in the box
   };
 
   void shape_grid(Grid& grid, std::size_t particles) const;
+  // Whole boxes that bring a particle into the box.
+  std::array<double, 3> home_of(const AlignedArray& positions, std::size_t slot) const;
+  std::array<double, 3> shift_of(const Image& image, const std::array<double, 3>& home) const;
   void list_images(const AlignedArray& positions, const kernels::SpeciesBlock& block, const Grid& grid, std::size_t begin,
-                   std::size_t end, std::vector<Image>& images) const;
+                   std::size_t end, AlignedVector<Image>& images) const;
   void sort_species(const AlignedArray& positions, std::size_t species);
 
   Box box_;
@@ -69,12 +71,12 @@ class PeriodicPoints {
   int threads_;
   std::vector<Grid> grids_;
   AlignedArray points_;
-  std::vector<std::uint32_t> slots_;
-  std::vector<std::array<double, 3>> shifts_;
-  std::array<std::vector<float>, 3> columns_;
+  AlignedVector<std::uint32_t> slots_;
+  AlignedVector<std::array<double, 3>> shifts_;
+  std::array<AlignedVector<float>, 3> columns_;
   // Of a sort, kept for their memory.
-  std::vector<std::vector<Image>> images_;
-  std::vector<std::vector<std::uint32_t>> places_;
+  std::vector<AlignedVector<Image>> images_;
+  std::vector<AlignedVector<std::uint32_t>> places_;
 };
 
 }  // namespace lanescape

@@ -87,7 +87,7 @@ Neighbours of_list(const NeighbourList& list, const ParticleLayout& layout, cons
           const std::array<double, 3> d = {other[0] - self[0], other[1] - self[1], other[2] - self[2]};
           const double cutoff = cutoffs_of_pairs.empty() ? 1e9 : cutoffs_of_pairs[list.species_of(b) * rows.species_count + s];
           if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < cutoff * cutoff)
-            found[particle_in.at(list.slot(b, k))].push_back(neighbour(particle_in.at(list.slot_at(place[j])), d));
+            found[particle_in.at(list.slot_at(rows.rows[k]))].push_back(neighbour(particle_in.at(list.slot_at(place[j])), d));
         }
         place += (count + kernels::slot_padding - 1) / kernels::slot_padding * kernels::slot_padding;
       }
