@@ -18,6 +18,7 @@
 #include "configuration/lennard_jones_model.hpp"
 #include "configuration/particle_layout.hpp"
 #include "core/error.hpp"
+#include "core/random.hpp"
 #include "dispatch/isa.hpp"
 #include "dynamics/event_driven.hpp"
 #include "interaction/hard_sphere.hpp"
@@ -25,6 +26,7 @@
 #include "io/extended_xyz.hpp"
 #include "landscape/hard_sphere_landscape.hpp"
 #include "landscape/lennard_jones_landscape.hpp"
+#include "neighbour/neighbour_list.hpp"
 #include "path/finder.hpp"
 #include "stepper/avoidance.hpp"
 #include "stepper/contour.hpp"
@@ -101,6 +103,57 @@ void lj_stress(Isa isa, std::uint64_t rounds) {
   SoftLiquid liquid;
   LennardJones interaction = liquid.nearest_images(isa);
   for (; rounds > 0; --rounds) keep(interaction.energy_and_stress(liquid.positions, liquid.out));
+}
+
+// A list over Kob-Andersen's mixture, N = 500, a shaken lattice: as large as a count under valgrind allows, and large enough for
+// rows to be those of a large system.
+struct ListLiquid {
+  LennardJonesModel model = kob_andersen();
+  Configuration start = fcc_start(model, 500, 1.2, 1);
+  ParticleLayout layout{start.species, model.species.size()};
+  AlignedArray positions, moved, out = AlignedArray(layout.dimension(), 0.0);
+
+  ListLiquid() {
+    const CounterRandom random(1, RandomStream::displacements);
+    for (std::uint32_t k = 0; k < start.positions.size(); ++k) start.positions[k] += 0.2 * (random.uniform(0, k / 3, k % 3) - 0.5);
+    positions = layout.to_slots(start.positions);
+    for (double& x : start.positions) x += default_skin;
+    moved = layout.to_slots(start.positions);
+  }
+  LennardJones interaction(Isa isa) const {
+    return LennardJones(model, start.box, layout, kernel_table(isa), {.search = PairSearch::list});
+  }
+};
+
+void lj_list_energy(Isa isa, std::uint64_t rounds) {
+  const ListLiquid liquid;
+  LennardJones interaction = liquid.interaction(isa);
+  for (; rounds > 0; --rounds) keep(interaction.energy(liquid.positions));
+}
+
+void lj_list_force(Isa isa, std::uint64_t rounds) {
+  ListLiquid liquid;
+  LennardJones interaction = liquid.interaction(isa);
+  for (; rounds > 0; --rounds) interaction.gradient(liquid.positions, liquid.out);
+}
+
+void lj_list_gradient(Isa isa, std::uint64_t rounds) {
+  ListLiquid liquid;
+  LennardJones interaction = liquid.interaction(isa);
+  for (; rounds > 0; --rounds) keep(interaction.energy_and_gradient(liquid.positions, liquid.out));
+}
+
+void lj_list_stress(Isa isa, std::uint64_t rounds) {
+  ListLiquid liquid;
+  LennardJones interaction = liquid.interaction(isa);
+  for (; rounds > 0; --rounds) keep(interaction.energy_and_stress(liquid.positions, liquid.out));
+}
+
+// The list made anew, by particles that jump there and back.
+void neighbour_list(Isa isa, std::uint64_t rounds) {
+  const ListLiquid liquid;
+  NeighbourList list(liquid.start.box, liquid.layout, {2.5, 2.0, 2.0, 2.2}, default_skin, kernel_table(isa), 1);
+  for (; rounds > 0; --rounds) list.update(rounds % 2 == 0 ? liquid.positions : liquid.moved);
 }
 
 // All images within the cutoff.
@@ -214,6 +267,11 @@ constexpr Case cases[] = {
     {"lj_energy", lj_energy, 5},
     {"lj_gradient", lj_gradient, 5},
     {"lj_stress", lj_stress, 5},
+    {"lj_list_energy", lj_list_energy, 4},
+    {"lj_list_force", lj_list_force, 4},
+    {"lj_list_gradient", lj_list_gradient, 4},
+    {"lj_list_stress", lj_list_stress, 4},
+    {"neighbour_list", neighbour_list, 4},
     {"contour_step", contour_step, 40},
     {"sphere_any_overlap", sphere_any_overlap, 20},
     {"sphere_pairs_within", sphere_pairs_within, 20},

@@ -553,6 +553,19 @@ inline std::uint32_t bits_less(FloatVector a, FloatVector b) noexcept {
 
 #endif
 
+#if defined(LANESCAPE_ISA_AVX2)
+// For each mask of eight lanes, which lanes are set, in order.
+struct SetLanes {
+  unsigned char of[256][8] = {};
+  constexpr SetLanes() {
+    for (int mask = 0; mask < 256; ++mask)
+      for (int lane = 0, count = 0; lane < 8; ++lane)
+        if (mask >> lane & 1) of[mask][count++] = static_cast<unsigned char>(lane);
+  }
+};
+inline constexpr SetLanes set_lanes;
+#endif
+
 // Writes 4 (first + lane) for every lane of single precision whose bit is set, one after the other from p on; up to a whole vector
 // is overwritten. Their number.
 inline std::size_t store_set_places(std::uint32_t* p, std::uint32_t mask, std::uint32_t first) noexcept {
@@ -560,6 +573,11 @@ inline std::size_t store_set_places(std::uint32_t* p, std::uint32_t mask, std::u
   const __m512i places = _mm512_add_epi32(_mm512_set1_epi32(static_cast<std::int32_t>(4 * first)),
                                           _mm512_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28, 32, 36, 40, 44, 48, 52, 56, 60));
   _mm512_storeu_si512(p, _mm512_maskz_compress_epi32(static_cast<__mmask16>(mask), places));
+  return static_cast<std::size_t>(__builtin_popcount(mask));
+#elif defined(LANESCAPE_ISA_AVX2)
+  const __m256i lanes_first = _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(set_lanes.of[mask & 0xffU])));
+  const __m256i places = _mm256_slli_epi32(_mm256_add_epi32(_mm256_set1_epi32(static_cast<std::int32_t>(first)), lanes_first), 2);
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), places);
   return static_cast<std::size_t>(__builtin_popcount(mask));
 #else
   std::size_t count = 0;
