@@ -201,6 +201,7 @@ struct Hdf5Writer::Impl {
   void write(std::string_view name, hid_t stored, hid_t memory, H5S_class_t shape, std::size_t count, const void* data) {
     const std::size_t size = H5Tget_size(stored);
     const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_obj_track_times(creation.get(), false);  // the same state makes the same file
     const hsize_t extent = count;
     if (count * size <= largest_compact) {
       H5Pset_layout(creation.get(), H5D_COMPACT);

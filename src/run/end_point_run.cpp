@@ -36,7 +36,6 @@ struct EndPointState {
 
 struct SoftState : EndPointState<EndPointGenerator> {
   static constexpr std::size_t trace_columns = 6;
-  static constexpr std::uint64_t rdf_interval = 1000;  // [steps]
   static constexpr std::uint64_t chunks_per_checkpoint = 100;
 
   std::uint64_t chunk = 1;  // steps between looks at the clock and the outside world, about 10 ms on one core
@@ -51,8 +50,10 @@ struct SoftState : EndPointState<EndPointGenerator> {
       trace.add({steps, steps * verlet.time_step(), verlet.temperature(), potential / n, (potential + verlet.kinetic_energy()) / n,
                  static_cast<double>(generator.phase())});
     }
-    if (generator.equilibrated() && verlet.steps() % rdf_interval == 0) radial_distribution.add(verlet.position());
+    if (generator.equilibrated() && verlet.steps() % rdf_interval() == 0) radial_distribution.add(verlet.position());
   }
+  // A sample of a large system says as much as many of a small one, and takes as long as a hundred steps.
+  std::uint64_t rdf_interval() const { return 1000 * std::max<std::uint64_t>(1, particles / 5000); }
   bool at_chunk_end() const { return generator.verlet().steps() % chunk == 0; }
   void end_chunk() {}
   bool saveable() const { return true; }
@@ -68,8 +69,8 @@ struct HardState : EndPointState<HardEndPointGenerator> {
 
   void step() {
     generator.step();
-    // A sample takes N^2/2 distances, a collision some hundred.
-    const std::uint64_t interval = std::max<std::uint64_t>(2000, layout->size() * layout->size() / 4);
+    // A sample takes N^2/2 distances, of a large system about 1000 N; a collision some hundred.
+    const std::uint64_t n = layout->size(), interval = std::max<std::uint64_t>(2000, std::min(n * n / 4, 1000 * n));
     if (generator.equilibrated() && generator.dynamics().collisions() % interval == 0)
       radial_distribution.add(layout->to_slots(generator.dynamics().positions()));
   }
