@@ -1,27 +1,20 @@
 #pragma once
 
 #include <cstddef>
-#include <exception>
-#include <vector>
+#include <functional>
 
 namespace lanescape {
 
-// body(part) for every part below `parts`, on that many threads; one part runs without any OpenMP construct. What a body throws
-// is thrown again once all have ended. Cut work so that no result depends on the number of parts.
+// body(part) for every part below `parts`, on that many threads. What a body throws is thrown again once all have ended.
+void run_on_threads(int parts, const std::function<void(int)>& body);
+
+// The same; one part runs without any OpenMP construct. Cut work so that no result depends on the number of parts.
 template <class Body>
-void for_each_part(int parts, Body body) {
-  if (parts <= 1) return body(0);
-  std::vector<std::exception_ptr> failures(static_cast<std::size_t>(parts));
-#pragma omp parallel for schedule(static, 1) num_threads(parts)
-  for (int part = 0; part < parts; ++part) {
-    try {
-      body(part);
-    } catch (...) {
-      failures[static_cast<std::size_t>(part)] = std::current_exception();
-    }
-  }
-  for (const auto& failure : failures)
-    if (failure) std::rethrow_exception(failure);
+void for_each_part(int parts, const Body& body) {
+  if (parts <= 1)
+    body(0);
+  else
+    run_on_threads(parts, std::cref(body));
 }
 
 // The first element of a part of n elements; the part after the last begins at n.

@@ -6,7 +6,7 @@ LennardJonesLandscape::LennardJonesLandscape(const LennardJonesModel& model, con
                                              const PairSearchOptions& options)
     : dimension_(layout.dimension()),
       particles_(layout.size()),
-      algebra_(kernel_table(isa)),
+      algebra_(kernel_table(isa), options.threads),
       interaction_(model, box, layout, kernel_table(isa), options) {}
 
 double LennardJonesLandscape::energy_and_gradient(const AlignedArray& position, AlignedArray& gradient) {
