@@ -460,6 +460,16 @@ class Paths(ProgramTest):
             del f["run.toml"]
         self.assertEqual(files[0], files[1])
 
+    def test_large_systems_do_not_depend_on_the_number_of_threads(self):
+        arguments = ("path", "--particles", "300", "--temperature", "2", "--quick", "--distance", "12", "--step", "0.05",
+                     "--melt-steps", "300", "--cooling-steps", "300", "--check-steps", "300", "--settle-steps", "100",
+                     "--check-tolerance", "1", "--frames", "3")
+        one, two = (self.done(*arguments, "--threads", n, "--out", self.folder / n) for n in ("1", "2"))
+        for key in ("length", "distance", "steps", "evaluations", "landscape_energy"):
+            self.assertEqual(one["paths"][0][key], two["paths"][0][key])
+        first, second = ((self.folder / n / "path-0001.extxyz").read_text() for n in ("1", "2"))
+        self.assertEqual(first, second)
+
     def test_reverse_keeps_the_shorter_of_both_ways(self):
         pairs = self.make_pairs("ends", 3)
         forward = self.done("path", *ARGON, "--pair", *pairs)
