@@ -1,6 +1,8 @@
 #include "neighbour/neighbour_list.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "core/parallel.hpp"
@@ -33,7 +35,17 @@ NeighbourList::NeighbourList(const Box& box, const ParticleLayout& layout, const
       own_images_in_reach_(std::any_of(reaches_.begin(), reaches_.end(), [&](double reach) { return reach >= box.shortest(); })),
       threads_(threads),
       points_(box, layout, margins(reaches_, layout.blocks().size()), threads),
-      neighbours_(static_cast<std::size_t>(threads)) {}
+      neighbours_(static_cast<std::size_t>(threads)) {
+  // Of a fluid that fills the box evenly; where it does not, the list grows.
+  constexpr double half_a_vector_of_padding = 0.5 * kernels::slot_padding, margin = 1.02;
+  const std::size_t species = layout.blocks().size();
+  for (std::size_t k = 0; k < reaches_.size(); ++k) {
+    const double rows = static_cast<double>(layout.blocks()[k / species].count) / static_cast<double>(layout.size() + 1);
+    const double density = static_cast<double>(layout.blocks()[k % species].count) / box.volume();
+    expected_per_row_ +=
+        margin * rows * (density * 4.0 / 3.0 * std::numbers::pi * std::pow(reaches_[k], 3) + half_a_vector_of_padding);
+  }
+}
 
 kernels::NeighbourRows NeighbourList::rows_of(std::size_t block) const {
   const Block& b = blocks_[block];
@@ -72,7 +84,11 @@ void NeighbourList::rebuild(const AlignedArray& positions) {
   cut_into_blocks();
   for_each_part(threads_, [&](int part) {
     const auto p = static_cast<std::size_t>(part);
-    std::size_t end = 0;
+    std::size_t end = 0, rows = 0;
+    for (std::size_t b = part_begin(blocks_.size(), part, threads_); b < part_begin(blocks_.size(), part + 1, threads_); ++b)
+      rows += blocks_[b].row_count;
+    const auto expected = static_cast<std::size_t>(expected_per_row_ * static_cast<double>(rows));
+    if (neighbours_[p].size() < expected) neighbours_[p].resize(expected);
     for (std::size_t b = part_begin(blocks_.size(), part, threads_); b < part_begin(blocks_.size(), part + 1, threads_); ++b) {
       fill(blocks_[b], p, end);
       end += blocks_[b].padded_neighbours;
@@ -118,7 +134,7 @@ void NeighbourList::fill(Block& block, std::size_t part, std::size_t begin) {
       };
       std::size_t count = search();
       for (; count + kernels::slot_padding > neighbours.size() - end; count = search())
-        neighbours.resize(neighbours.size() + neighbours.size() / 4 + 4096);
+        neighbours.resize(neighbours.size() + neighbours.size() / 16 + 4096);
       count = without_own_images(rows[k], neighbours.data() + end, count);
       // Whole vectors: what is added is never counted.
       std::fill_n(neighbours.begin() + static_cast<std::ptrdiff_t>(end + count), padded(count) - count, rows[k]);

@@ -74,6 +74,7 @@ class NeighbourList {
   AlignedArray made_at_;
   std::vector<Block> blocks_;
   std::vector<std::size_t> first_blocks_;
+  double expected_per_row_ = 0.0;                         // places, padding included
   std::vector<AlignedVector<std::uint32_t>> neighbours_;  // of all blocks that a part has made
   AlignedVector<std::uint32_t> lengths_;                  // of all blocks
   std::uint64_t rebuilds_ = 0;
