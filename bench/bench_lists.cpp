@@ -53,7 +53,7 @@ struct System {
 
 Configuration melt(const LennardJonesModel& model, std::size_t particles, double density) {
   Configuration configuration = fcc_start(model, particles, density, 1);
-  const ParticleLayout layout(configuration.species, model.species.size());
+  const ParticleLayout layout = ParticleLayout::in_space_order(configuration, model.species.size());
   LennardJonesLandscape landscape(model, configuration.box, layout, available_isas().back());
   VelocityVerlet verlet(landscape, model, layout, layout.to_slots(configuration.positions), 2e-3);
   verlet.draw_velocities(5.0, 1);
@@ -130,7 +130,7 @@ double count_pairs(const NeighbourList& list, const LennardJonesModel& model) {
 
 System verified(const LennardJonesModel& model, Configuration configuration) {
   System system{model, std::move(configuration), "", 0.0};
-  const ParticleLayout layout(system.configuration.species, model.species.size());
+  const ParticleLayout layout = ParticleLayout::in_space_order(system.configuration, model.species.size());
   LennardJones interaction(model, system.configuration.box, layout, kernel_table(choose_isa("auto")), {.search = PairSearch::list});
   AlignedArray gradient(layout.dimension(), 0.0);
   interaction.gradient(layout.to_slots(system.configuration.positions), gradient);
@@ -199,7 +199,7 @@ enum class Quantity { energy, force, all };
 void evaluate(benchmark::State& state, Quantity quantity, const Setting& setting) {
   const System& system = setting.source();
   if (!system.wrong.empty()) return state.SkipWithError(system.wrong.c_str());
-  const ParticleLayout layout(system.configuration.species, system.model.species.size());
+  const ParticleLayout layout = ParticleLayout::in_space_order(system.configuration, system.model.species.size());
   const AlignedArray positions = layout.to_slots(system.configuration.positions);
   AlignedArray gradient(layout.dimension(), 0.0);
   LennardJones interaction(system.model, system.configuration.box, layout, kernel_table(setting.isa), setting.search());
@@ -226,7 +226,7 @@ void evaluate(benchmark::State& state, Quantity quantity, const Setting& setting
 // The list made anew, by particles that jump there and back.
 void renew(benchmark::State& state, const Setting& setting) {
   const System& system = setting.source();
-  const ParticleLayout layout(system.configuration.species, system.model.species.size());
+  const ParticleLayout layout = ParticleLayout::in_space_order(system.configuration, system.model.species.size());
   std::vector<double> cutoffs;
   for (const double sigma : system.model.sigma) cutoffs.push_back(system.model.cutoff * sigma);
   NeighbourList list(system.configuration.box, layout, cutoffs, default_skin, kernel_table(setting.isa), setting.threads);
@@ -247,7 +247,7 @@ void renew(benchmark::State& state, const Setting& setting) {
 // Whole steps of molecular dynamics at T = 1, lists made anew where they have to be.
 void step(benchmark::State& state, const Setting& setting) {
   const System& system = setting.source();
-  const ParticleLayout layout(system.configuration.species, system.model.species.size());
+  const ParticleLayout layout = ParticleLayout::in_space_order(system.configuration, system.model.species.size());
   LennardJonesLandscape landscape(system.model, system.configuration.box, layout, setting.isa, setting.search());
   VelocityVerlet verlet(landscape, system.model, layout, layout.to_slots(system.configuration.positions), md_time_step);
   verlet.draw_velocities(1.0, 1);
@@ -262,7 +262,7 @@ void step(benchmark::State& state, const Setting& setting) {
 // Contour steps between two configurations of a trajectory, and how many times longer than V and its gradient one takes.
 void contour_step(benchmark::State& state, const Setting& setting) {
   const System& system = setting.source();
-  const ParticleLayout layout(system.configuration.species, system.model.species.size());
+  const ParticleLayout layout = ParticleLayout::in_space_order(system.configuration, system.model.species.size());
   LennardJonesLandscape landscape(system.model, system.configuration.box, layout, setting.isa,
                                   {.search = PairSearch::list, .threads = setting.threads, .skin = path_skin});
   AlignedArray start = layout.to_slots(system.configuration.positions), goal, gradient(layout.dimension(), 0.0);

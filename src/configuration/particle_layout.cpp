@@ -1,9 +1,52 @@
 #include "configuration/particle_layout.hpp"
 
-namespace lanescape {
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
 
-ParticleLayout::ParticleLayout(const std::vector<int>& species, std::size_t species_count)
-    : slot_of_(species.size()), blocks_(species_count) {
+namespace lanescape {
+namespace {
+
+std::vector<std::size_t> in_users_order(std::size_t n) {
+  std::vector<std::size_t> particles(n);
+  std::iota(particles.begin(), particles.end(), std::size_t{0});
+  return particles;
+}
+
+// By columns of the box along z, about three particles wide, and along each.
+std::vector<std::size_t> by_place(const Configuration& configuration) {
+  const std::size_t n = configuration.size();
+  const double width = std::cbrt(3.0 * configuration.box.volume() / static_cast<double>(n));
+  std::vector<std::tuple<double, double, double, std::size_t>> keys;
+  keys.reserve(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto wrapped = [&](std::size_t axis) { return configuration.box.wrapped(axis, configuration.positions[3 * i + axis]); };
+    keys.emplace_back(std::floor(wrapped(0) / width), std::floor(wrapped(1) / width), wrapped(2), i);
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<std::size_t> particles;
+  particles.reserve(n);
+  for (const auto& key : keys) particles.push_back(std::get<3>(key));
+  return particles;
+}
+
+}  // namespace
+
+ParticleLayout::ParticleLayout(const std::vector<int>& species, std::size_t species_count) {
+  assign(species, species_count, in_users_order(species.size()));
+}
+
+ParticleLayout ParticleLayout::in_space_order(const Configuration& configuration, std::size_t species_count) {
+  const std::size_t n = configuration.size();
+  ParticleLayout layout;
+  layout.assign(configuration.species, species_count, n < sorted_from ? in_users_order(n) : by_place(configuration));
+  return layout;
+}
+
+void ParticleLayout::assign(const std::vector<int>& species, std::size_t species_count, std::span<const std::size_t> particles) {
+  slot_of_.resize(species.size());
+  blocks_.resize(species_count);
   for (const int s : species) ++blocks_[static_cast<std::size_t>(s)].count;
   for (auto& block : blocks_) {
     block.begin = slots_;
@@ -11,7 +54,7 @@ ParticleLayout::ParticleLayout(const std::vector<int>& species, std::size_t spec
   }
   std::vector<std::size_t> next;
   for (const auto& block : blocks_) next.push_back(block.begin);
-  for (std::size_t i = 0; i < species.size(); ++i) slot_of_[i] = next[static_cast<std::size_t>(species[i])]++;
+  for (const std::size_t i : particles) slot_of_[i] = next[static_cast<std::size_t>(species[i])]++;
 }
 
 AlignedArray ParticleLayout::to_slots(std::span<const double> interleaved) const {

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "configuration/configuration.hpp"
 #include "core/aligned_array.hpp"
 #include "views.hpp"
 
@@ -14,7 +15,12 @@ namespace lanescape {
 // order; this is the one place that translates.
 class ParticleLayout {
  public:
+  // Within a species in the user's order.
   ParticleLayout(const std::vector<int>& species, std::size_t species_count);
+  // Of large systems (from `sorted_from` particles on) within a species by where in the box they are, as neighbour lists sort their
+  // points: what is near in space is then near in memory, until particles have diffused away.
+  static ParticleLayout in_space_order(const Configuration& configuration, std::size_t species_count);
+  static constexpr std::size_t sorted_from = 2000;
 
   std::size_t size() const { return slot_of_.size(); }  // N
   std::size_t slots() const { return slots_; }          // padded
@@ -29,6 +35,10 @@ class ParticleLayout {
   AlignedArray per_slot(std::span<const double> per_particle, double padding) const;
 
  private:
+  ParticleLayout() = default;
+  // Slots in the order of `particles`.
+  void assign(const std::vector<int>& species, std::size_t species_count, std::span<const std::size_t> particles);
+
   std::vector<std::size_t> slot_of_;
   std::vector<kernels::SpeciesBlock> blocks_;
   std::size_t slots_ = 0;

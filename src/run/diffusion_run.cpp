@@ -158,7 +158,7 @@ struct DiffusionState {
 template <class Source, class SourceModel>
 DiffusionRunResult run(const SourceModel& model, const Configuration& start, const DiffusionRunOptions& options, Isa isa,
                        const CheckpointOptions& checkpoint, RunMonitor& monitor) {
-  const ParticleLayout layout(start.species, model.species.size());
+  const ParticleLayout layout = ParticleLayout::in_space_order(start, model.species.size());
   DiffusionState<Source> state{Source(model, layout, start, options, isa), DiffusionAccumulator(layout, options.window)};
   const auto file = checkpoint.folder / "diffusion.h5";
   if (checkpoint.enabled() && checkpoint.resume) load_checkpoint(file, state);

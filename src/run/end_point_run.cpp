@@ -166,7 +166,7 @@ EndPointRunResult summarise(const State& state, bool interrupted, const Configur
 EndPointRunResult run_end_points(const LennardJonesModel& model, const Configuration& start, const EndPointOptions& options,
                                  Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor) {
   check_separations(start, model);
-  const ParticleLayout layout(start.species, model.species.size());
+  const ParticleLayout layout = ParticleLayout::in_space_order(start, model.species.size());
   LennardJonesLandscape landscape(model, start.box, layout, isa, {.threads = options.threads});
   SoftState state{{EndPointGenerator(landscape, model, layout, layout.to_slots(start.positions), options),
                    DecimatedTrace(SoftState::trace_columns, trace_rows), RadialDistribution(start.box, layout, rdf_bins)},
@@ -183,7 +183,7 @@ EndPointRunResult run_end_points(const LennardJonesModel& model, const Configura
 EndPointRunResult run_hard_end_points(const HardSphereModel& model, const Configuration& start, const HardEndPointOptions& options,
                                       Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor) {
   check_no_overlap(start, kernel_table(isa));
-  const ParticleLayout layout(start.species, model.species.size());
+  const ParticleLayout layout = ParticleLayout::in_space_order(start, model.species.size());
   HardState state{{HardEndPointGenerator(model, layout, start, options, isa), DecimatedTrace(HardState::trace_columns, trace_rows),
                    RadialDistribution(start.box, layout, rdf_bins)},
                   &layout};

@@ -56,7 +56,7 @@ PreparedPair prepare(const Model& model, const ConfigurationPair& pair, std::siz
   const std::string where = fmt::format("pair {}", number + 1);
   check_end_points(pair, model, where);
   const Mixture& mixture = mixture_of(model);
-  const ParticleLayout layout(pair.start.species, mixture.species.size());
+  const ParticleLayout layout = ParticleLayout::in_space_order(pair.start, mixture.species.size());
   PreparedPair prepared{layout, KinematicMetric(mixture, layout), layout.to_slots(pair.start.positions),
                         layout.to_slots(pair.finish.positions)};
   prepared.metric.to_kinematic(prepared.start);

@@ -16,7 +16,7 @@ struct EnergyResult {
 };
 
 EnergyResult by_kernels(const LennardJonesModel& model, const Configuration& configuration, Isa isa, int threads) {
-  const ParticleLayout layout(configuration.species, model.species.size());
+  const ParticleLayout layout = ParticleLayout::in_space_order(configuration, model.species.size());
   LennardJones interaction(model, configuration.box, layout, kernel_table(isa), {.threads = threads});
   AlignedArray gradient(layout.dimension(), 0.0);
   const auto e = interaction.energy_and_stress(layout.to_slots(configuration.positions), gradient);

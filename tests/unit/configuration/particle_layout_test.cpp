@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <random>
 #include <set>
 #include <vector>
 
@@ -104,6 +106,47 @@ TEST(ParticleLayout, NoParticlesTakeNoSlots) {
   EXPECT_EQ(layout.slots(), 0u);
   EXPECT_TRUE(layout.to_slots({}).empty());
   EXPECT_TRUE(layout.to_user({}).empty());
+}
+
+// Particles at random, numbers beyond the box included.
+Configuration gas(std::size_t particles) {
+  Configuration gas{{{20.0, 10.0, 15.0}}, mixed(particles), {}};
+  std::mt19937_64 engine(1);
+  std::uniform_real_distribution<double> anywhere(-30.0, 30.0);
+  for (std::size_t k = 0; k < 3 * particles; ++k) gas.positions.push_back(anywhere(engine));
+  return gas;
+}
+
+TEST(ParticleLayout, OfFewParticlesIsInTheUsersOrderWhereverTheyAre) {
+  const Configuration few = gas(ParticleLayout::sorted_from - 1);
+  const ParticleLayout by_place = ParticleLayout::in_space_order(few, 3), by_number(few.species, 3);
+  for (std::size_t i = 0; i < few.size(); ++i) EXPECT_EQ(by_place.slot_of(i), by_number.slot_of(i));
+}
+
+TEST(ParticleLayout, OfManyParticlesHasNearbyOnesInNearbySlotsAndEveryOneInItsSpeciesBlock) {
+  const Configuration many = gas(4000);
+  const ParticleLayout layout = ParticleLayout::in_space_order(many, 3);
+  std::set<std::size_t> slots;
+  for (std::size_t i = 0; i < many.size(); ++i) {
+    const auto& block = layout.blocks()[static_cast<std::size_t>(many.species[i])];
+    EXPECT_GE(layout.slot_of(i), block.begin);
+    EXPECT_LT(layout.slot_of(i), block.begin + block.count);
+    slots.insert(layout.slot_of(i));
+  }
+  EXPECT_EQ(slots.size(), many.size());
+  EXPECT_EQ(layout.to_user(layout.to_slots(many.positions)), many.positions);
+
+  // From slot to slot a particle is a fraction of the box away; at random it would be some 5 to 10.
+  const AlignedArray r = layout.to_slots(many.positions);
+  double sum = 0.0;
+  const std::size_t count = layout.blocks()[0].count;
+  for (std::size_t slot = 1; slot < count; ++slot) {
+    double squared = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      squared += std::pow(many.box.nearest_image(axis, r[axis * layout.slots() + slot] - r[axis * layout.slots() + slot - 1]), 2);
+    sum += std::sqrt(squared);
+  }
+  EXPECT_LT(sum / static_cast<double>(count), 1.5);
 }
 
 }  // namespace
