@@ -58,8 +58,8 @@ struct NeighbourPairs {
 // All pairs in a periodic orthorhombic box, in time O(N) at a given density. `positions` x0 y0 z0 x1 ..., 3N of them, wrapped or
 // not; `box` holds edge lengths. Any unit of length will do if it is the same for all. d < cutoff is decided in double precision,
 // and the result is the same on every instruction set. Throws std::runtime_error with one line saying what is wrong and what is
-// allowed: if the number of positions is not 3N, a number is not finite, an edge or the cutoff is not above 0, the cutoff is above
-// 32 times the shortest edge, or a particle is more than 1e8 boxes away.
+// allowed: if the number of coordinates is not 3N, a number is not finite, an edge or the cutoff is not above 0, the cutoff is
+// above 32 times the shortest edge, a particle is more than 1e8 boxes away, or there would be more than 1e9 images to look at.
 NeighbourPairs neighbour_pairs(std::span<const double> positions, const std::array<double, 3>& box, double cutoff);
 
 }  // namespace lanescape
