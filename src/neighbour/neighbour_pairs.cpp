@@ -66,6 +66,8 @@ class CandidateSearch {
     std::vector<double> in_units(positions.size());
     std::transform(positions.begin(), positions.end(), in_units.begin(), [&](double x) { return in_unit(x); });
     points_.sort(layout_.to_slots(in_units));
+    boxes_.reserve(points_.size());
+    for (std::size_t k = 0; k < points_.size(); ++k) boxes_.push_back(whole_boxes(points_.shift(k)));
     for (const std::uint32_t place : points_.rows(0)) place_of_[points_.slot(place / kernels::point_width)] = place;
     for (std::size_t i = 0; i < layout_.size(); ++i) particle_in_[layout_.slot_of(i)] = i;
   }
@@ -74,18 +76,20 @@ class CandidateSearch {
   template <class Visit>
   void visit(std::size_t i, Visit visit) {
     const std::size_t self = place_of_[layout_.slot_of(i)] / kernels::point_width;
-    const std::array<double, 3> home = points_.shift(self);
+    const std::array<int, 3>& home = boxes_[self];
     for (const std::uint32_t place : places_near(self)) {
       const std::size_t other = place / kernels::point_width;
-      const std::array<double, 3> shift = points_.shift(other);
-      std::array<int, 3> boxes{};
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        boxes[axis] = static_cast<int>(std::lround((shift[axis] - home[axis]) / box_.length[axis]));
-      visit(particle_in_[points_.slot(other)], boxes);
+      const std::array<int, 3>& boxes = boxes_[other];
+      visit(particle_in_[points_.slot(other)], std::array<int, 3>{boxes[0] - home[0], boxes[1] - home[1], boxes[2] - home[2]});
     }
   }
 
  private:
+  std::array<int, 3> whole_boxes(const std::array<double, 3>& shift) const {
+    std::array<int, 3> boxes{};
+    for (std::size_t axis = 0; axis < 3; ++axis) boxes[axis] = static_cast<int>(std::lround(shift[axis] / box_.length[axis]));
+    return boxes;
+  }
   double in_unit(double length) const { return std::scalbn(length, exponent_); }
 
   // More than separations of points and the caller's can differ by: each takes a few operations on numbers up to these.
@@ -111,7 +115,8 @@ class CandidateSearch {
   ParticleLayout layout_;
   double rounding_, reach_;
   PeriodicPoints points_;
-  std::vector<std::uint32_t> place_of_;  // of each slot's particle, in the box
+  std::vector<std::array<int, 3>> boxes_;  // added to each point's particle
+  std::vector<std::uint32_t> place_of_;    // of each slot's particle, in the box
   std::vector<std::size_t> particle_in_;
   AlignedVector<std::uint32_t> found_;
 };
