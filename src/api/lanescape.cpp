@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "configuration/particle_layout.hpp"
 #include "core/error.hpp"
 #include "dispatch/isa.hpp"
 #include "interaction/lennard_jones.hpp"
+#include "neighbour/neighbour_pairs.hpp"
 
 namespace lanescape {
 
@@ -70,6 +72,15 @@ double LennardJonesPotential::energy_and_forces(std::span<const double> position
   std::transform(gradient.begin(), gradient.end(), forces.begin(), [](double g) { return -g; });
   if (virial != nullptr) *virial = evaluation.virial;
   return evaluation.energy;
+}
+
+NeighbourPairs neighbour_pairs(std::span<const double> positions, const std::array<double, 3>& box, double cutoff) {
+  OrderedPairs pairs = ordered_pairs(Box{box}, positions, cutoff, kernel_table(choose_isa("auto")));
+  return {.first = std::move(pairs.first),
+          .second = std::move(pairs.second),
+          .shift = std::move(pairs.shift),
+          .separation = std::move(pairs.separation),
+          .distance = std::move(pairs.distance)};
 }
 
 }  // namespace lanescape

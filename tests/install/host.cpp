@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <lanescape/lanescape.hpp>
@@ -30,6 +31,16 @@ bool gives_the_pair_potential(const std::string& isa) {
          close(forces[0], -attraction) && close(forces[3], attraction) && forces[1] == 0.0 && forces[5] == 0.0;
 }
 
+// The two particles above see each other across the face, from either end.
+bool finds_the_pair() {
+  const lanescape::NeighbourPairs pairs =
+      lanescape::neighbour_pairs(std::vector<double>{9.5, 1.0, 2.0, 1.0, 1.0, 2.0}, {10.0, 10.0, 10.0}, 2.5);
+  using Shifts = std::vector<std::array<int, 3>>;
+  return pairs.first == std::vector<std::size_t>{0, 1} && pairs.second == std::vector<std::size_t>{1, 0} &&
+         pairs.shift == Shifts{{1, 0, 0}, {-1, 0, 0}} && pairs.separation[0] == std::array<double, 3>{1.5, 0.0, 0.0} &&
+         pairs.distance == std::vector<double>{1.5, 1.5};
+}
+
 bool refuses_what_it_does_not_know() {
   lanescape::LennardJonesPotential::Options options;
   options.isa = "abacus";
@@ -44,7 +55,7 @@ bool refuses_what_it_does_not_know() {
 }  // namespace
 
 int main() {
-  bool good = std::string(lanescape::version()) == LANESCAPE_VERSION && refuses_what_it_does_not_know();
+  bool good = std::string(lanescape::version()) == LANESCAPE_VERSION && refuses_what_it_does_not_know() && finds_the_pair();
   for (const std::string& isa : lanescape::instruction_sets()) good = gives_the_pair_potential(isa) && good;
   std::printf("lanescape %s\n", lanescape::version());
   return good ? 0 : 1;
