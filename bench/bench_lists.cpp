@@ -311,7 +311,7 @@ void register_system(const std::string& model, std::size_t particles, const Sour
         add(what, isa, threads, [quantity = quantity](benchmark::State& s, const Setting& set) { evaluate(s, quantity, set); });
       add("renew", isa, threads, renew);
       add("step", isa, threads, step);
-      if (particles <= 4000) add("contour_step", isa, threads, contour_step);
+      if (particles == 4000) add("contour_step", isa, threads, contour_step);
     }
 }
 
