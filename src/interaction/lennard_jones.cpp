@@ -52,12 +52,12 @@ bool fits_list(const LennardJonesModel& model, const Box& box, double skin) {
 
 namespace {
 
-void check_list(const LennardJonesModel& model, const Box& box, const PairSearchOptions& options) {
-  if (fits_list(model, box, options.skin)) return;
+void check_list(const LennardJonesModel& model, const Box& box, Precision precision, double skin) {
+  if (fits_list(model, box, skin)) return;
   throw_bad_input(
       fmt::format("the minimum-image rule has no neighbour list{} in a box of shortest edge {}: at least twice the "
                   "cutoff and the skin is needed",
-                  options.precision == Precision::mixed ? ", which mixed precision needs," : "", box.shortest()));
+                  precision == Precision::mixed ? ", which mixed precision needs," : "", box.shortest()));
 }
 
 bool takes_list(const LennardJonesModel& model, const Box& box, std::size_t particles, const PairSearchOptions& options) {
@@ -67,13 +67,13 @@ bool takes_list(const LennardJonesModel& model, const Box& box, std::size_t part
     case PairSearch::all_pairs:
       return false;
     case PairSearch::list:
-      check_list(model, box, options);
+      check_list(model, box, options.precision, options.skin);
       return true;
     case PairSearch::automatic:
       break;
   }
   if (options.precision == Precision::mixed) {
-    check_list(model, box, options);
+    check_list(model, box, options.precision, options.skin);
     return true;
   }
   return particles >= list_crossover && fits_list(model, box, options.skin);
@@ -87,6 +87,10 @@ int useful_threads(std::size_t particles, int wanted) {
 }
 
 }  // namespace
+
+void check_precision(const LennardJonesModel& model, const Box& box, Precision precision, double skin) {
+  if (precision == Precision::mixed) check_list(model, box, precision, skin);
+}
 
 LennardJones::LennardJones(const LennardJonesModel& model, const Box& box, const ParticleLayout& layout,
                            const kernels::KernelTable& table, const PairSearchOptions& options)

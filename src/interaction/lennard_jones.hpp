@@ -44,6 +44,9 @@ Precision parse_precision(std::string_view word);  // throws Error(bad_input)
 // Whether the image rule allows a list: `minimum` only where the nearest image of a pair cannot change while the list lasts.
 bool fits_list(const LennardJonesModel& model, const Box& box, double skin);
 
+// Throws Error(bad_input) where mixed precision would need a list that the image rule does not allow.
+void check_precision(const LennardJonesModel& model, const Box& box, Precision precision, double skin);
+
 // From so many particles on a list is faster (docs/PERFORMANCE.md).
 inline constexpr std::size_t list_crossover = 200;
 // Of a list: larger ones hold more pairs that are out of range, smaller ones are made anew more often [sigma].
