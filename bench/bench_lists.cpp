@@ -5,7 +5,8 @@
 //
 // Without a file: Kob-Andersen at density 1.2 and Lennard-Jones at density 0.8442, T = 1, both truncated at 2.5 sigma and shifted.
 // Large liquids are a smaller one repeated along the axes: each particle then has the very surroundings of one in the small liquid.
-// Gradients of 64 particles are verified by the scalar reference before anything is timed.
+// Gradients of 64 particles are verified by the scalar reference before anything is timed. Names that end in -mixed are those in
+// mixed precision.
 //
 // Counters: `ns_per_particle` per evaluation or step; `ns_per_pair` per pair within the cutoff, each counted once; `gflops` of the
 // operations that such a pair cannot do without, once, 15 multiply-adds (bench_landscape.cpp), 6 where only the energy is wanted;
@@ -28,6 +29,7 @@
 #include "neighbour/neighbour_list.hpp"
 #include "path/finder.hpp"
 #include "stepper/contour.hpp"
+#include "verification/kernel_checks.hpp"
 #include "verification/reference_bridge.hpp"
 
 namespace lanescape::bench {
@@ -93,7 +95,14 @@ Configuration surroundings(const Configuration& all, std::size_t particle, doubl
   return near;
 }
 
-std::string check_gradient(const System& system, const std::vector<double>& gradient) {
+std::string check_gradient(const System& system, Precision precision) {
+  const ParticleLayout layout = ParticleLayout::in_space_order(system.configuration, system.model.species.size());
+  LennardJones interaction(system.model, system.configuration.box, layout, kernel_table(choose_isa("auto")),
+                           {.search = PairSearch::list, .precision = precision});
+  AlignedArray in_slots(layout.dimension(), 0.0);
+  interaction.gradient(layout.to_slots(system.configuration.positions), in_slots);
+  const std::vector<double> gradient = layout.to_user(in_slots);
+  const double allowed = precision == Precision::mixed ? tolerance::lj_mixed_gradient : 1e-11;
   const std::size_t n = system.configuration.size();
   std::mt19937 choose(1);
   for (int k = 0; k < 64; ++k) {
@@ -101,9 +110,9 @@ std::string check_gradient(const System& system, const std::vector<double>& grad
     const reference::Evaluation expected =
         evaluate_reference(system.model, surroundings(system.configuration, i, system.model.cutoff));
     for (std::size_t axis = 0; axis < 3; ++axis)
-      if (!(std::fabs(gradient[3 * i + axis] - expected.gradient[axis]) <= 1e-11 * expected.gradient_magnitude[0]))
-        return fmt::format("particle {}: gradient {} where the reference has {}", i, gradient[3 * i + axis],
-                           expected.gradient[axis]);
+      if (!(std::fabs(gradient[3 * i + axis] - expected.gradient[axis]) <= allowed * expected.gradient_magnitude[0]))
+        return fmt::format("particle {}: gradient in {} precision {} where the reference has {}", i, to_string(precision),
+                           gradient[3 * i + axis], expected.gradient[axis]);
   }
   return "";
 }
@@ -132,9 +141,8 @@ System verified(const LennardJonesModel& model, Configuration configuration) {
   System system{model, std::move(configuration), "", 0.0};
   const ParticleLayout layout = ParticleLayout::in_space_order(system.configuration, model.species.size());
   LennardJones interaction(model, system.configuration.box, layout, kernel_table(choose_isa("auto")), {.search = PairSearch::list});
-  AlignedArray gradient(layout.dimension(), 0.0);
-  interaction.gradient(layout.to_slots(system.configuration.positions), gradient);
-  system.wrong = check_gradient(system, layout.to_user(gradient));
+  interaction.energy(layout.to_slots(system.configuration.positions));  // makes the list
+  system.wrong = check_gradient(system, Precision::double_precision) + check_gradient(system, Precision::mixed);
   system.pairs = count_pairs(*interaction.list(), model);
   return system;
 }
@@ -181,8 +189,9 @@ struct Setting {
   Source source;
   Isa isa;
   int threads;
+  Precision precision = Precision::double_precision;
 
-  PairSearchOptions search() const { return {.search = PairSearch::list, .threads = threads}; }
+  PairSearchOptions search() const { return {.search = PairSearch::list, .threads = threads, .precision = precision}; }
 };
 
 void set_time_counters(benchmark::State& state, const System& system, int threads, double seconds) {
@@ -263,8 +272,9 @@ void step(benchmark::State& state, const Setting& setting) {
 void contour_step(benchmark::State& state, const Setting& setting) {
   const System& system = setting.source();
   const ParticleLayout layout = ParticleLayout::in_space_order(system.configuration, system.model.species.size());
-  LennardJonesLandscape landscape(system.model, system.configuration.box, layout, setting.isa,
-                                  {.search = PairSearch::list, .threads = setting.threads, .skin = path_skin});
+  LennardJonesLandscape landscape(
+      system.model, system.configuration.box, layout, setting.isa,
+      {.search = PairSearch::list, .threads = setting.threads, .skin = path_skin, .precision = setting.precision});
   AlignedArray start = layout.to_slots(system.configuration.positions), goal, gradient(layout.dimension(), 0.0);
   {
     VelocityVerlet verlet(landscape, system.model, layout, start, 2e-3);
@@ -297,19 +307,24 @@ std::vector<int> thread_counts() {
 }
 
 void register_system(const std::string& model, std::size_t particles, const Source& source) {
-  const auto add = [&](const std::string& what, Isa isa, int threads, auto body) {
-    const auto name = fmt::format("{}/{}/N:{}/threads:{}/{}", model, what, particles, threads, to_string(isa));
-    const Setting setting{source, isa, threads};
+  const auto add_in = [&](Precision precision, const std::string& what, Isa isa, int threads, auto body) {
+    const auto name = fmt::format("{}/{}{}/N:{}/threads:{}/{}", model, what, precision == Precision::mixed ? "-mixed" : "",
+                                  particles, threads, to_string(isa));
+    const Setting setting{source, isa, threads, precision};
     benchmark::RegisterBenchmark(name.c_str(), [body, setting](benchmark::State& state) { body(state, setting); })
         ->UseManualTime()
         ->Unit(benchmark::kMicrosecond);
+  };
+  const auto add = [&](const std::string& what, Isa isa, int threads, auto body) {
+    add_in(Precision::double_precision, what, isa, threads, body);
+    add_in(Precision::mixed, what, isa, threads, body);
   };
   for (const int threads : thread_counts())
     for (const Isa isa : available_isas()) {
       for (const auto& [what, quantity] : {std::pair{"energy", Quantity::energy}, std::pair{"force", Quantity::force},
                                            std::pair{"force+energy+virial", Quantity::all}})
         add(what, isa, threads, [quantity = quantity](benchmark::State& s, const Setting& set) { evaluate(s, quantity, set); });
-      add("renew", isa, threads, renew);
+      add_in(Precision::double_precision, "renew", isa, threads, renew);
       add("step", isa, threads, step);
       if (particles == 4000) add("contour_step", isa, threads, contour_step);
     }

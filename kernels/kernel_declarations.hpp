@@ -14,6 +14,9 @@ double lj_list_energy(const LjListInput& in) noexcept;
 void lj_list_force(const LjListInput& in, double* gradient) noexcept;
 void lj_list_gradient(const LjListInput& in, double* gradient, LjOutput& out) noexcept;
 void lj_list_stress(const LjListInput& in, double* gradient, LjOutput& out) noexcept;
+double lj_list_energy_mixed(const LjListInput& in) noexcept;
+void lj_list_force_mixed(const LjListInput& in, double* gradient) noexcept;
+void lj_list_gradient_mixed(const LjListInput& in, double* gradient, LjOutput& out) noexcept;
 std::size_t points_within(const PointGrid& grid, const NeighbourQuery& query, std::uint32_t* out, std::size_t capacity) noexcept;
 
 bool sphere_any_overlap(const SphereInput& in) noexcept;

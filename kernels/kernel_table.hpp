@@ -20,6 +20,12 @@ struct KernelTable {
   void (*lj_list_force)(const LjListInput&, double* gradient) noexcept;
   void (*lj_list_gradient)(const LjListInput&, double* gradient, LjOutput&) noexcept;
   void (*lj_list_stress)(const LjListInput&, double* gradient, LjOutput&) noexcept;
+  // The same in mixed precision, which needs NeighbourRows::fixed_points: pairs in single precision, sums over all but the lanes of
+  // one row in double. A pair nearer to the cutoff than 2^-22 of it may or may not count. The three agree to the bit in what they
+  // have in common.
+  double (*lj_list_energy_mixed)(const LjListInput&) noexcept;
+  void (*lj_list_force_mixed)(const LjListInput&, double* gradient) noexcept;
+  void (*lj_list_gradient_mixed)(const LjListInput&, double* gradient, LjOutput&) noexcept;
   // Places of all points of a grid within reach of a position, and of some that are up to a millionth of the grid's length further,
   // in rising order; their number, or capacity + 1 where there may be no room for all of them and a vector more.
   std::size_t (*points_within)(const PointGrid&, const NeighbourQuery&, std::uint32_t* out, std::size_t capacity) noexcept;

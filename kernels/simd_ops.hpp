@@ -454,8 +454,9 @@ inline void store_point(double* out, Vector x, Vector y, Vector z) noexcept {
 #endif
 }
 
-// Single precision, for filters whose verdicts are checked again in double: coordinates as 32-bit fractions of the box, whose
-// differences wrap around as the box does.
+// Single precision. For filters whose verdicts are checked again in double: coordinates as 32-bit fractions of the box, whose
+// differences wrap around as the box does. For forces in mixed precision: coordinates as 32-bit integers in a unit so small that
+// they wrap around many times in the box, while the difference of two points in reach of one another does not.
 #if defined(LANESCAPE_ISA_AVX512)
 
 using FloatVector = __m512;
@@ -472,6 +473,12 @@ inline FloatVector wrapped_difference(const std::int32_t* p, std::int32_t s) noe
   return _mm512_cvtepi32_ps(_mm512_sub_epi32(_mm512_load_si512(p), _mm512_set1_epi32(s)));
 }
 inline std::uint32_t bits_less(FloatVector a, FloatVector b) noexcept { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
+using FloatMask = __mmask16;
+inline FloatMask less(FloatVector a, FloatVector b) noexcept { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
+inline FloatMask both(FloatMask a, FloatMask b) noexcept { return _kand_mask16(a, b); }
+inline FloatVector multiply_add(FloatVector a, FloatVector b, FloatVector c) noexcept { return _mm512_fmadd_ps(a, b, c); }
+inline FloatVector masked_quotient(FloatMask m, FloatVector a, FloatVector b) noexcept { return _mm512_maskz_div_ps(m, a, b); }
+inline FloatVector count_up(FloatVector sum, FloatMask m) noexcept { return _mm512_mask_add_ps(sum, m, sum, _mm512_set1_ps(1.0F)); }
 
 #elif defined(LANESCAPE_ISA_AVX2)
 
@@ -490,6 +497,18 @@ inline FloatVector wrapped_difference(const std::int32_t* p, std::int32_t s) noe
 inline std::uint32_t bits_less(FloatVector a, FloatVector b) noexcept {
   return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LT_OQ)));
 }
+struct FloatMask {
+  __m256 lane;  // all bits or none
+};
+inline FloatMask less(FloatVector a, FloatVector b) noexcept { return {_mm256_cmp_ps(a, b, _CMP_LT_OQ)}; }
+inline FloatMask both(FloatMask a, FloatMask b) noexcept { return {_mm256_and_ps(a.lane, b.lane)}; }
+inline FloatVector multiply_add(FloatVector a, FloatVector b, FloatVector c) noexcept { return _mm256_fmadd_ps(a, b, c); }
+inline FloatVector masked_quotient(FloatMask m, FloatVector a, FloatVector b) noexcept {
+  return _mm256_and_ps(m.lane, _mm256_div_ps(a, b));
+}
+inline FloatVector count_up(FloatVector sum, FloatMask m) noexcept {
+  return _mm256_add_ps(sum, _mm256_and_ps(m.lane, _mm256_set1_ps(1.0F)));
+}
 
 #elif defined(LANESCAPE_ISA_SSE2)
 
@@ -507,6 +526,18 @@ inline FloatVector wrapped_difference(const std::int32_t* p, std::int32_t s) noe
 }
 inline std::uint32_t bits_less(FloatVector a, FloatVector b) noexcept {
   return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmplt_ps(a, b)));
+}
+struct FloatMask {
+  __m128 lane;  // all bits or none
+};
+inline FloatMask less(FloatVector a, FloatVector b) noexcept { return {_mm_cmplt_ps(a, b)}; }
+inline FloatMask both(FloatMask a, FloatMask b) noexcept { return {_mm_and_ps(a.lane, b.lane)}; }
+inline FloatVector multiply_add(FloatVector a, FloatVector b, FloatVector c) noexcept { return _mm_add_ps(_mm_mul_ps(a, b), c); }
+inline FloatVector masked_quotient(FloatMask m, FloatVector a, FloatVector b) noexcept {
+  return _mm_and_ps(m.lane, _mm_div_ps(a, b));
+}
+inline FloatVector count_up(FloatVector sum, FloatMask m) noexcept {
+  return _mm_add_ps(sum, _mm_and_ps(m.lane, _mm_set1_ps(1.0F)));
 }
 
 #else
@@ -550,6 +581,30 @@ inline std::uint32_t bits_less(FloatVector a, FloatVector b) noexcept {
   for (std::size_t k = 0; k < float_lanes; ++k) r |= (a.lane[k] < b.lane[k] ? 1U : 0U) << k;
   return r;
 }
+struct FloatMask {
+  bool lane[float_lanes];
+};
+template <class F>
+inline FloatMask float_lanewise_mask(F f) noexcept {
+  FloatMask r;
+  for (std::size_t k = 0; k < float_lanes; ++k) r.lane[k] = f(k);
+  return r;
+}
+inline FloatMask less(FloatVector a, FloatVector b) noexcept {
+  return float_lanewise_mask([&](std::size_t k) { return a.lane[k] < b.lane[k]; });
+}
+inline FloatMask both(FloatMask a, FloatMask b) noexcept {
+  return float_lanewise_mask([&](std::size_t k) { return a.lane[k] && b.lane[k]; });
+}
+inline FloatVector multiply_add(FloatVector a, FloatVector b, FloatVector c) noexcept {
+  return float_lanewise([&](std::size_t k) { return a.lane[k] * b.lane[k] + c.lane[k]; });
+}
+inline FloatVector masked_quotient(FloatMask m, FloatVector a, FloatVector b) noexcept {
+  return float_lanewise([&](std::size_t k) { return m.lane[k] ? a.lane[k] / b.lane[k] : 0.0F; });
+}
+inline FloatVector count_up(FloatVector sum, FloatMask m) noexcept {
+  return float_lanewise([&](std::size_t k) { return sum.lane[k] + (m.lane[k] ? 1.0F : 0.0F); });
+}
 
 #endif
 
@@ -565,6 +620,94 @@ struct SetLanes {
 };
 inline constexpr SetLanes set_lanes;
 #endif
+
+// Set in the lanes below k, all of them from float_lanes on.
+inline FloatMask float_lanes_below(std::size_t k) noexcept {
+  k = k < float_lanes ? k : float_lanes;
+#if defined(LANESCAPE_ISA_AVX512)
+  return static_cast<__mmask16>(0xffffU >> (16 - k));
+#elif defined(LANESCAPE_X86)
+  alignas(64) static constexpr std::int32_t bits[] = {-1, -1, -1, -1, -1, -1, -1, -1, 0, 0, 0, 0, 0, 0, 0, 0};
+  const float* start = reinterpret_cast<const float*>(bits + 8 - k);
+#if defined(LANESCAPE_ISA_AVX2)
+  return {_mm256_loadu_ps(start)};
+#else
+  return {_mm_loadu_ps(start)};
+#endif
+#else
+  return float_lanewise_mask([&](std::size_t lane) { return lane < k; });
+#endif
+}
+
+// Both halves in double precision, added lane by lane.
+inline Vector add_halves(FloatVector v) noexcept {
+#if defined(LANESCAPE_ISA_AVX512)
+  return _mm512_add_pd(_mm512_cvtps_pd(_mm512_castps512_ps256(v)), _mm512_cvtps_pd(_mm512_extractf32x8_ps(v, 1)));
+#elif defined(LANESCAPE_ISA_AVX2)
+  return _mm256_add_pd(_mm256_cvtps_pd(_mm256_castps256_ps128(v)), _mm256_cvtps_pd(_mm256_extractf128_ps(v, 1)));
+#elif defined(LANESCAPE_ISA_SSE2)
+  return _mm_add_pd(_mm_cvtps_pd(v), _mm_cvtps_pd(_mm_movehl_ps(v, v)));
+#else
+  return lanewise([&](std::size_t k) { return static_cast<double>(v.lane[k]) + static_cast<double>(v.lane[k + lanes]); });
+#endif
+}
+
+// What x, y and z of `float_lanes` points (records of four integers, 16-byte aligned) differ by from those of `origin`, in wrapping
+// 32-bit arithmetic, as floating-point numbers; the point of lane k is place[k] integers from `base`.
+inline void gather_differences(const std::int32_t* base, const std::uint32_t* place, const std::int32_t* origin, FloatVector& x,
+                               FloatVector& y, FloatVector& z) noexcept {
+#if defined(LANESCAPE_X86)
+  const auto one = [&](int k) { return _mm_load_si128(reinterpret_cast<const __m128i*>(base + place[k])); };
+#endif
+#if defined(LANESCAPE_ISA_AVX512)
+  // Eight at a time: what puts 128 bits into a wider register is cheaper in the narrower one.
+  struct Eight {
+    __m256i x, y, z;
+  };
+  const auto eight = [&](int k) -> Eight {
+    const auto two = [&](int i) { return _mm256_inserti128_si256(_mm256_castsi128_si256(one(k + i)), one(k + i + 4), 1); };
+    const __m256i a = two(0), b = two(1), c = two(2), d = two(3);
+    const __m256i xy_ab = _mm256_unpacklo_epi32(a, b), xy_cd = _mm256_unpacklo_epi32(c, d);
+    return {_mm256_unpacklo_epi64(xy_ab, xy_cd), _mm256_unpackhi_epi64(xy_ab, xy_cd),
+            _mm256_unpacklo_epi64(_mm256_unpackhi_epi32(a, b), _mm256_unpackhi_epi32(c, d))};
+  };
+  const Eight low = eight(0), high = eight(8);
+  const auto from = [&](__m256i l, __m256i h, int axis) {
+    const __m512i both_halves = _mm512_inserti64x4(_mm512_castsi256_si512(l), h, 1);
+    return _mm512_cvtepi32_ps(_mm512_sub_epi32(both_halves, _mm512_set1_epi32(origin[axis])));
+  };
+  x = from(low.x, high.x, 0);
+  y = from(low.y, high.y, 1);
+  z = from(low.z, high.z, 2);
+#elif defined(LANESCAPE_ISA_AVX2)
+  const auto column = [&](int k) { return _mm256_inserti128_si256(_mm256_castsi128_si256(one(k)), one(k + 4), 1); };
+  const __m256i a = column(0), b = column(1), c = column(2), d = column(3);
+  const __m256i xy_ab = _mm256_unpacklo_epi32(a, b), xy_cd = _mm256_unpacklo_epi32(c, d);
+  const __m256i z_ab = _mm256_unpackhi_epi32(a, b), z_cd = _mm256_unpackhi_epi32(c, d);
+  const auto from = [&](__m256i v, int axis) { return _mm256_cvtepi32_ps(_mm256_sub_epi32(v, _mm256_set1_epi32(origin[axis]))); };
+  x = from(_mm256_unpacklo_epi64(xy_ab, xy_cd), 0);
+  y = from(_mm256_unpackhi_epi64(xy_ab, xy_cd), 1);
+  z = from(_mm256_unpacklo_epi64(z_ab, z_cd), 2);
+#elif defined(LANESCAPE_ISA_SSE2)
+  const __m128i a = one(0), b = one(1), c = one(2), d = one(3);
+  const __m128i xy_ab = _mm_unpacklo_epi32(a, b), xy_cd = _mm_unpacklo_epi32(c, d);
+  const __m128i z_ab = _mm_unpackhi_epi32(a, b), z_cd = _mm_unpackhi_epi32(c, d);
+  const auto from = [&](__m128i v, int axis) { return _mm_cvtepi32_ps(_mm_sub_epi32(v, _mm_set1_epi32(origin[axis]))); };
+  x = from(_mm_unpacklo_epi64(xy_ab, xy_cd), 0);
+  y = from(_mm_unpackhi_epi64(xy_ab, xy_cd), 1);
+  z = from(_mm_unpacklo_epi64(z_ab, z_cd), 2);
+#else
+  const auto from = [&](std::size_t axis) {
+    return float_lanewise([&](std::size_t k) {
+      return static_cast<float>(
+          static_cast<std::int32_t>(static_cast<std::uint32_t>(base[place[k] + axis]) - static_cast<std::uint32_t>(origin[axis])));
+    });
+  };
+  x = from(0);
+  y = from(1);
+  z = from(2);
+#endif
+}
 
 // Writes 4 (first + lane) for every lane of single precision whose bit is set, one after the other from p on; up to a whole vector
 // is overwritten. Their number.

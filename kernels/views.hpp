@@ -61,7 +61,7 @@ struct LjOutput {
 inline constexpr std::size_t point_width = 4;
 
 // Rows of one species and the neighbours of each, species by species. The neighbours of a row of one species start at a
-// multiple of slot_padding and end with places that are valid but not counted.
+// multiple of slot_padding and end with places that are valid but not counted; after the last of all come slot_padding more.
 struct NeighbourRows {
   const double* points;
   const std::uint32_t* rows;  // places of the rows' own points
@@ -69,11 +69,23 @@ struct NeighbourRows {
   const std::uint32_t* neighbours;  // places, all rows one after the other
   const std::uint32_t* lengths;     // row_count x species_count: how many neighbours
   std::size_t species_count;
+  // For the kernels in mixed precision, else null: the same points at the same places, records of point_width integers: coordinates
+  // in fixed_unit, modulo 2^32. Separations of points that are in each other's list are below 2^31 of them, hence exact.
+  const std::int32_t* fixed_points;
+  double fixed_unit;  // a power of two [sigma]
+};
+
+// What the kernels in mixed precision need of an LjPair in single precision.
+struct LjSinglePair {
+  float twelve_c12, minus_six_c6;  // 12 c12, -6 c6 [sigma]
+  float cutoff_squared;            // in units of NeighbourRows::fixed_unit
+  float sigma_squared;             // 1 sigma^2 in the same units
 };
 
 struct LjListInput {
   NeighbourRows list;
-  const LjPair* pairs;  // species_count: the rows' species with each [sigma]; `images` is not looked at
+  const LjPair* pairs;               // species_count: the rows' species with each [sigma]; `images` is not looked at
+  const LjSinglePair* single_pairs;  // the same; for the kernels in mixed precision, else null
 };
 
 // Points sorted by the cells of a grid, cells running fastest along z; their coordinates in columns, in single precision: a search

@@ -7,6 +7,7 @@
 
 #include "core/archive.hpp"
 #include "dynamics/velocity_verlet.hpp"
+#include "interaction/lennard_jones.hpp"
 
 namespace lanescape {
 
@@ -31,6 +32,7 @@ struct EndPointOptions {
   std::uint64_t max_pair_steps = 1'000'000'000;
   std::uint64_t seed = 1;
   int threads = 1;  // of one evaluation; no effect on any result
+  Precision precision = Precision::double_precision;
 
   // The same protocol with counts small enough to try things out.
   void make_quick();

@@ -36,6 +36,14 @@ void check_cutoff(const LennardJonesModel& model, const Box& box) {
                     cutoff, max_image_shells, box.shortest(), (max_image_shells + 0.5) * box.shortest()));
 }
 
+const char* to_string(Precision precision) { return precision == Precision::mixed ? "mixed" : "double"; }
+
+Precision parse_precision(std::string_view word) {
+  for (const Precision precision : {Precision::double_precision, Precision::mixed})
+    if (word == to_string(precision)) return precision;
+  throw_bad_input(fmt::format("precision '{}' is not allowed: double or mixed", word));
+}
+
 bool fits_list(const LennardJonesModel& model, const Box& box, double skin) {
   if (model.images == ImageRule::all) return true;
   const double cutoff = model.cutoff * *std::max_element(model.sigma.begin(), model.sigma.end());
@@ -44,19 +52,29 @@ bool fits_list(const LennardJonesModel& model, const Box& box, double skin) {
 
 namespace {
 
+void check_list(const LennardJonesModel& model, const Box& box, Precision precision, double skin) {
+  if (fits_list(model, box, skin)) return;
+  throw_bad_input(
+      fmt::format("the minimum-image rule has no neighbour list{} in a box of shortest edge {}: at least twice the "
+                  "cutoff and the skin is needed",
+                  precision == Precision::mixed ? ", which mixed precision needs," : "", box.shortest()));
+}
+
 bool takes_list(const LennardJonesModel& model, const Box& box, std::size_t particles, const PairSearchOptions& options) {
+  if (options.precision == Precision::mixed && options.search == PairSearch::all_pairs)
+    throw_bad_input("mixed precision needs a neighbour list: over all pairs there is double precision only");
   switch (options.search) {
     case PairSearch::all_pairs:
       return false;
     case PairSearch::list:
-      if (!fits_list(model, box, options.skin))
-        throw_bad_input(
-            fmt::format("the minimum-image rule has no neighbour list in a box of shortest edge {}: at least twice the "
-                        "cutoff and the skin is needed",
-                        box.shortest()));
+      check_list(model, box, options.precision, options.skin);
       return true;
     case PairSearch::automatic:
       break;
+  }
+  if (options.precision == Precision::mixed) {
+    check_list(model, box, options.precision, options.skin);
+    return true;
   }
   return particles >= list_crossover && fits_list(model, box, options.skin);
 }
@@ -70,12 +88,17 @@ int useful_threads(std::size_t particles, int wanted) {
 
 }  // namespace
 
+void check_precision(const LennardJonesModel& model, const Box& box, Precision precision, double skin) {
+  if (precision == Precision::mixed) check_list(model, box, precision, skin);
+}
+
 LennardJones::LennardJones(const LennardJonesModel& model, const Box& box, const ParticleLayout& layout,
                            const kernels::KernelTable& table, const PairSearchOptions& options)
     : blocks_(layout.blocks()) {
   check_cutoff(model, box);
   if (takes_list(model, box, layout.size(), options))
-    sums_ = std::make_unique<ListSums>(model, box, layout, table, options.skin, useful_threads(layout.size(), options.threads));
+    sums_ = std::make_unique<ListSums>(model, box, layout, table, options.skin, useful_threads(layout.size(), options.threads),
+                                       options.precision);
   else
     sums_ = std::make_unique<AllPairsSums>(model, box, layout, table);
   if (model.images == ImageRule::all) add_images_of_self(model, box);

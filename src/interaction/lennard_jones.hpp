@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "configuration/configuration.hpp"
@@ -34,8 +35,17 @@ void check_separations(const Configuration& configuration, const LennardJonesMod
 // How pairs are found: over all of them, or over a neighbour list; or whichever is faster, by the number of particles.
 enum class PairSearch { automatic, all_pairs, list };
 
+// Of the arithmetic of pairs. Mixed: single precision, over a list, with sums in double and the error that docs/ARCHITECTURE.md
+// states. What double_precision means is the rest of the library.
+enum class Precision { double_precision, mixed };
+const char* to_string(Precision precision);        // "double" or "mixed"
+Precision parse_precision(std::string_view word);  // throws Error(bad_input)
+
 // Whether the image rule allows a list: `minimum` only where the nearest image of a pair cannot change while the list lasts.
 bool fits_list(const LennardJonesModel& model, const Box& box, double skin);
+
+// Throws Error(bad_input) where mixed precision would need a list that the image rule does not allow.
+void check_precision(const LennardJonesModel& model, const Box& box, Precision precision, double skin);
 
 // From so many particles on a list is faster (docs/PERFORMANCE.md).
 inline constexpr std::size_t list_crossover = 200;
@@ -48,13 +58,15 @@ struct PairSearchOptions {
   PairSearch search = PairSearch::automatic;
   int threads = 1;  // that share the rows of a list; no effect on any result
   double skin = default_skin;
+  Precision precision = Precision::double_precision;  // mixed takes a list at any size
 };
 
 // Energy, gradient and virial of one mixture in one box by the kernels of one instruction set. Holds the scratch memory of an
 // evaluation and the neighbour list, so that each caller's thread needs its own. Coordinates are in the layout's order.
 class LennardJones {
  public:
-  // Throws what check_cutoff() throws, and Error(bad_input) where a list is asked for that the minimum-image rule does not allow.
+  // Throws what check_cutoff() throws, and Error(bad_input) where a list is asked for, or needed for mixed precision, that the
+  // minimum-image rule or PairSearch::all_pairs does not allow.
   LennardJones(const LennardJonesModel& model, const Box& box, const ParticleLayout& layout, const kernels::KernelTable& table,
                const PairSearchOptions& options = {});
   LennardJones(LennardJones&&) noexcept;
@@ -70,6 +82,7 @@ class LennardJones {
   double energy(const AlignedArray& positions);
   void gradient(const AlignedArray& positions, AlignedArray& gradient);
   Evaluation energy_and_gradient(const AlignedArray& positions, AlignedArray& gradient);
+  // In double precision always.
   Evaluation energy_and_stress(const AlignedArray& positions, AlignedArray& gradient);
 
   // What else than the positions the bits of a result depend on: where a list was made.

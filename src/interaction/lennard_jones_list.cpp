@@ -14,11 +14,25 @@ std::vector<double> cutoffs(const std::vector<kernels::LjPair>& pairs) {
   return cutoffs;
 }
 
+std::vector<kernels::LjSinglePair> in_single_precision(const std::vector<kernels::LjPair>& pairs, double fixed_unit) {
+  const double sigma_squared = 1.0 / (fixed_unit * fixed_unit);
+  std::vector<kernels::LjSinglePair> single;
+  for (const auto& pair : pairs)
+    single.push_back({static_cast<float>(12.0 * pair.c12), static_cast<float>(-6.0 * pair.c6),
+                      static_cast<float>(pair.cutoff_squared * sigma_squared), static_cast<float>(sigma_squared)});
+  return single;
+}
+
 }  // namespace
 
 ListSums::ListSums(const LennardJonesModel& model, const Box& box, const ParticleLayout& layout, const kernels::KernelTable& table,
-                   double skin, int threads)
-    : table_(&table), pairs_(lj_parameters(model)), list_(box, layout, cutoffs(pairs_), skin, table, threads) {
+                   double skin, int threads, Precision precision)
+    : table_(&table),
+      precision_(precision),
+      pairs_(lj_parameters(model)),
+      list_(box, layout, cutoffs(pairs_), skin, table, threads,
+            precision == Precision::mixed ? NeighbourList::Coordinates::floating_and_fixed : NeighbourList::Coordinates::floating) {
+  if (precision == Precision::mixed) single_pairs_ = in_single_precision(pairs_, list_.fixed_unit());
   for (std::size_t b = 0; b < layout.blocks().size(); ++b) {
     const std::size_t end = b + 1 < layout.blocks().size() ? layout.blocks()[b + 1].begin : layout.slots();
     for (std::size_t slot = layout.blocks()[b].begin + layout.blocks()[b].count; slot < end; ++slot) padding_.push_back(slot);
@@ -33,7 +47,10 @@ void ListSums::for_each_block(const AlignedArray& positions, Evaluate evaluate) 
   for_each_part(list_.parts(), [&](int part) {
     alignas(kernels::array_alignment) std::array<double, kernels::point_width * NeighbourList::block_rows> records;
     for (std::size_t b = list_.first_block(part); b < list_.first_block(part + 1); ++b)
-      evaluate(b, kernels::LjListInput{list_.rows_of(b), pairs_.data() + list_.species_of(b) * species}, records.data());
+      evaluate(b,
+               kernels::LjListInput{list_.rows_of(b), pairs_.data() + list_.species_of(b) * species,
+                                    single_pairs_.empty() ? nullptr : single_pairs_.data() + list_.species_of(b) * species},
+               records.data());
   });
 }
 
@@ -65,22 +82,24 @@ kernels::LjOutput ListSums::total() const {
 }
 
 double ListSums::energy(const AlignedArray& positions) {
-  for_each_block(positions,
-                 [&](std::size_t b, const kernels::LjListInput& in, double*) { sums_[b].energy = table_->lj_list_energy(in); });
+  const auto sum = precision_ == Precision::mixed ? table_->lj_list_energy_mixed : table_->lj_list_energy;
+  for_each_block(positions, [&](std::size_t b, const kernels::LjListInput& in, double*) { sums_[b].energy = sum(in); });
   return total().energy;
 }
 
 void ListSums::gradient_only(const AlignedArray& positions, AlignedArray& gradient) {
+  const auto sum = precision_ == Precision::mixed ? table_->lj_list_force_mixed : table_->lj_list_force;
   for_each_block(positions, [&](std::size_t b, const kernels::LjListInput& in, double* records) {
-    table_->lj_list_force(in, records);
+    sum(in, records);
     put_gradient(b, records, gradient);
   });
   clear_padding(gradient);
 }
 
 void ListSums::gradient(const AlignedArray& positions, AlignedArray& gradient, kernels::LjOutput& out) {
+  const auto sum = precision_ == Precision::mixed ? table_->lj_list_gradient_mixed : table_->lj_list_gradient;
   for_each_block(positions, [&](std::size_t b, const kernels::LjListInput& in, double* records) {
-    table_->lj_list_gradient(in, records, sums_[b]);
+    sum(in, records, sums_[b]);
     put_gradient(b, records, gradient);
   });
   clear_padding(gradient);

@@ -7,6 +7,7 @@
 #include "core/aligned_array.hpp"
 #include "core/archive.hpp"
 #include "core/box.hpp"
+#include "interaction/lennard_jones.hpp"
 #include "kernel_table.hpp"
 #include "neighbour/neighbour_list.hpp"
 
@@ -48,7 +49,7 @@ class AllPairsSums final : public LennardJonesSums {
 class ListSums final : public LennardJonesSums {
  public:
   ListSums(const LennardJonesModel& model, const Box& box, const ParticleLayout& layout, const kernels::KernelTable& table,
-           double skin, int threads);
+           double skin, int threads, Precision precision);
 
   double energy(const AlignedArray& positions) override;
   void gradient_only(const AlignedArray& positions, AlignedArray& gradient) override;
@@ -67,7 +68,9 @@ class ListSums final : public LennardJonesSums {
   kernels::LjOutput total() const;
 
   const kernels::KernelTable* table_;
+  Precision precision_;
   std::vector<kernels::LjPair> pairs_;
+  std::vector<kernels::LjSinglePair> single_pairs_;  // of mixed precision, else none
   NeighbourList list_;
   std::vector<std::size_t> padding_;     // slots without a particle
   std::vector<kernels::LjOutput> sums_;  // of each block

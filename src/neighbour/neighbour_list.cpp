@@ -24,17 +24,25 @@ std::vector<double> margins(const std::vector<double>& reaches, std::size_t spec
   return margins;
 }
 
+// A power of two [sigma] with twice the furthest that two points of a list get from one another below 2^31 units.
+double unit_for(const std::vector<double>& reaches, double skin) {
+  double furthest = skin;
+  for (const double reach : reaches) furthest = std::max(furthest, reach + skin);
+  return std::ldexp(1.0, std::ilogb(2.0 * furthest) + 1 - 31);
+}
+
 }  // namespace
 
 NeighbourList::NeighbourList(const Box& box, const ParticleLayout& layout, const std::vector<double>& cutoffs, double skin,
-                             const kernels::KernelTable& table, int threads)
+                             const kernels::KernelTable& table, int threads, Coordinates coordinates)
     : table_(&table),
       slots_(layout.slots()),
       reaches_(with_skin(cutoffs, skin)),
       skin_(skin),
       own_images_in_reach_(std::any_of(reaches_.begin(), reaches_.end(), [&](double reach) { return reach >= box.shortest(); })),
       threads_(threads),
-      points_(box, layout, margins(reaches_, layout.blocks().size()), threads),
+      points_(box, layout, margins(reaches_, layout.blocks().size()), threads,
+              coordinates == Coordinates::floating ? 0.0 : unit_for(reaches_, skin)),
       neighbours_(static_cast<std::size_t>(threads)) {
   // Of a fluid that fills the box evenly; where it does not, the list grows.
   constexpr double half_a_vector_of_padding = 0.5 * kernels::slot_padding, margin = 1.02;
@@ -54,7 +62,9 @@ kernels::NeighbourRows NeighbourList::rows_of(std::size_t block) const {
           .row_count = b.row_count,
           .neighbours = neighbours_[b.part].data() + b.first_neighbour,
           .lengths = lengths_.data() + b.first_segment,
-          .species_count = points_.species()};
+          .species_count = points_.species(),
+          .fixed_points = points_.fixed_points(),
+          .fixed_unit = points_.fixed_unit()};
 }
 
 void NeighbourList::update(const AlignedArray& positions) {
@@ -93,6 +103,9 @@ void NeighbourList::rebuild(const AlignedArray& positions) {
       fill(blocks_[b], p, end);
       end += blocks_[b].padded_neighbours;
     }
+    // Vectors of sixteen lanes read on beyond the padding, where only here there is no neighbour of another row.
+    neighbours_[p].resize(std::max(neighbours_[p].size(), end + kernels::slot_padding));
+    std::fill_n(neighbours_[p].begin() + static_cast<std::ptrdiff_t>(end), kernels::slot_padding, 0U);
   });
   share_out();
 }

@@ -22,9 +22,12 @@ namespace lanescape {
 // else: they are what has to be archived for the same bits.
 class NeighbourList {
  public:
+  // What its points are given as: as integers too for kernels in mixed precision.
+  enum class Coordinates { floating, floating_and_fixed };
+
   // `cutoffs`: species x species, symmetric [sigma].
   NeighbourList(const Box& box, const ParticleLayout& layout, const std::vector<double>& cutoffs, double skin,
-                const kernels::KernelTable& table, int threads);
+                const kernels::KernelTable& table, int threads, Coordinates coordinates = Coordinates::floating);
 
   // To be called before the list is used at new positions (layout's order, wrapped or not).
   void update(const AlignedArray& positions);
@@ -33,6 +36,8 @@ class NeighbourList {
   std::size_t block_count() const { return blocks_.size(); }
   std::size_t species_of(std::size_t block) const { return blocks_[block].species; }
   kernels::NeighbourRows rows_of(std::size_t block) const;
+  // Of the points as integers, 0 if they are not given as such [sigma].
+  double fixed_unit() const { return points_.fixed_unit(); }
   // The most rows a block has.
   static constexpr std::size_t block_rows = 32;
   // The slot of the particle that the point at a place is, or is an image of.

@@ -1,6 +1,7 @@
 #include "neighbour/periodic_points.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/parallel.hpp"
@@ -14,11 +15,13 @@ constexpr std::size_t read_ahead = 16;
 
 }  // namespace
 
-PeriodicPoints::PeriodicPoints(const Box& box, const ParticleLayout& layout, std::vector<double> margins, int threads)
+PeriodicPoints::PeriodicPoints(const Box& box, const ParticleLayout& layout, std::vector<double> margins, int threads,
+                               double fixed_unit)
     : box_(box),
       blocks_(layout.blocks()),
       layout_slots_(layout.slots()),
       threads_(threads),
+      fixed_unit_(fixed_unit),
       grids_(margins.size()),
       images_(static_cast<std::size_t>(threads)),
       places_(static_cast<std::size_t>(threads)) {
@@ -116,6 +119,7 @@ void PeriodicPoints::sort(const AlignedArray& positions) {
   for (std::size_t s = 0; s < grids_.size(); ++s) sort_species(positions, s);
   const std::size_t n = size();
   points_.resize(kernels::point_width * n, 0.0);
+  if (fixed_unit_ > 0.0) fixed_points_.resize(kernels::point_width * n, 0);
   refresh(positions);
   for (auto& column : columns_) column.resize(n + read_ahead, 0.0F);
   for_each_part(threads_, [&](int part) {
@@ -177,7 +181,16 @@ void PeriodicPoints::refresh(const AlignedArray& positions) {
       point[1] = y[slot] + shift[1];
       point[2] = z[slot] + shift[2];
     }
+    if (fixed_unit_ > 0.0) fix_points(part_begin(n, part, threads_), part_begin(n, part + 1, threads_));
   });
+}
+
+void PeriodicPoints::fix_points(std::size_t begin, std::size_t end) {
+  // Added to a number below 2^51, this leaves no bits for a fraction and the rounded number, modulo 2^32, in the lowest 32.
+  constexpr double shifter = 6755399441055744.0;
+  const double per_length = 1.0 / fixed_unit_;
+  for (std::size_t k = kernels::point_width * begin; k < kernels::point_width * end; ++k)
+    fixed_points_[k] = static_cast<std::int32_t>(std::bit_cast<std::uint64_t>(points_[k] * per_length + shifter));
 }
 
 kernels::PointGrid PeriodicPoints::grid(std::size_t species) const {
@@ -190,8 +203,8 @@ kernels::PointGrid PeriodicPoints::grid(std::size_t species) const {
 }
 
 std::size_t PeriodicPoints::memory() const {
-  std::size_t bytes =
-      points_.capacity() * sizeof(double) + slots_.capacity() * sizeof(std::uint32_t) + shifts_.capacity() * sizeof(shifts_[0]);
+  std::size_t bytes = points_.capacity() * sizeof(double) + fixed_points_.capacity() * sizeof(std::int32_t) +
+                      slots_.capacity() * sizeof(std::uint32_t) + shifts_.capacity() * sizeof(shifts_[0]);
   for (const auto& column : columns_) bytes += column.capacity() * sizeof(float);
   for (const auto& images : images_) bytes += images.capacity() * sizeof(Image);
   for (const auto& places : places_) bytes += places.capacity() * sizeof(std::uint32_t);

@@ -20,8 +20,9 @@ namespace lanescape {
 // alone, not on the number of threads.
 class PeriodicPoints {
  public:
-  // `margins`: for each species, how far from the box its images matter [sigma].
-  PeriodicPoints(const Box& box, const ParticleLayout& layout, std::vector<double> margins, int threads);
+  // `margins`: for each species, how far from the box its images matter [sigma]. `fixed_unit`: of the points as integers, a power
+  // of two [sigma]; 0: there are none.
+  PeriodicPoints(const Box& box, const ParticleLayout& layout, std::vector<double> margins, int threads, double fixed_unit = 0.0);
 
   // Takes positions (layout's order, wrapped or not) and sorts. O(N).
   void sort(const AlignedArray& positions);
@@ -33,6 +34,9 @@ class PeriodicPoints {
   // Records of kernels::point_width doubles.
   const double* points() const { return points_.data(); }
   const double* point(std::size_t k) const { return points_.data() + kernels::point_width * k; }
+  // The same in units of fixed_unit(), modulo 2^32: records of kernels::point_width integers. Null if there are none.
+  const std::int32_t* fixed_points() const { return fixed_points_.empty() ? nullptr : fixed_points_.data(); }
+  double fixed_unit() const { return fixed_unit_; }
   // The slot of the particle that a point is, or is an image of.
   std::uint32_t slot(std::size_t k) const { return slots_[k]; }
   // What was added to that particle's position: whole boxes [sigma].
@@ -64,13 +68,17 @@ class PeriodicPoints {
   void list_images(const AlignedArray& positions, const kernels::SpeciesBlock& block, const Grid& grid, std::size_t begin,
                    std::size_t end, AlignedVector<Image>& images) const;
   void sort_species(const AlignedArray& positions, std::size_t species);
+  // Of the points [begin, end).
+  void fix_points(std::size_t begin, std::size_t end);
 
   Box box_;
   std::vector<kernels::SpeciesBlock> blocks_;
   std::size_t layout_slots_;
   int threads_;
+  double fixed_unit_;
   std::vector<Grid> grids_;
   AlignedArray points_;
+  AlignedVector<std::int32_t> fixed_points_;
   AlignedVector<std::uint32_t> slots_;
   AlignedVector<std::array<double, 3>> shifts_;
   std::array<AlignedVector<float>, 3> columns_;

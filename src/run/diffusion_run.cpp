@@ -86,7 +86,8 @@ class SoftSource {
       : layout_(&layout),
         options_(&options),
         volume_(start.box.volume()),
-        landscape_(model, start.box, layout, isa, {.threads = options.equilibration.threads}),
+        landscape_(model, start.box, layout, isa,
+                   {.threads = options.equilibration.threads, .precision = options.equilibration.precision}),
         generator_(landscape_, model, layout, layout.to_slots(start.positions), options.equilibration),
         gradient_(layout.dimension(), 0.0),
         steps_per_record_(static_cast<std::uint64_t>(std::lround(options.window.interval / options.equilibration.time_step))) {}

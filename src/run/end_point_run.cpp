@@ -167,7 +167,7 @@ EndPointRunResult run_end_points(const LennardJonesModel& model, const Configura
                                  Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor) {
   check_separations(start, model);
   const ParticleLayout layout = ParticleLayout::in_space_order(start, model.species.size());
-  LennardJonesLandscape landscape(model, start.box, layout, isa, {.threads = options.threads});
+  LennardJonesLandscape landscape(model, start.box, layout, isa, {.threads = options.threads, .precision = options.precision});
   SoftState state{{EndPointGenerator(landscape, model, layout, layout.to_slots(start.positions), options),
                    DecimatedTrace(SoftState::trace_columns, trace_rows), RadialDistribution(start.box, layout, rdf_bins)},
                   std::clamp<std::uint64_t>(150'000 / (layout.size() + 1), 1, 1000),

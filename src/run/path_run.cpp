@@ -30,9 +30,9 @@ std::uint64_t steps_per_chunk(std::size_t particles) { return std::clamp<std::ui
 constexpr std::uint64_t chunks_per_checkpoint = 700;
 
 std::unique_ptr<SoftLandscape> make_landscape(const LennardJonesModel& model, const Box& box, const ParticleLayout& layout, Isa isa,
-                                              const KinematicMetric& metric, int threads) {
-  std::unique_ptr<SoftLandscape> landscape =
-      std::make_unique<LennardJonesLandscape>(model, box, layout, isa, PairSearchOptions{.threads = threads, .skin = path_skin});
+                                              const KinematicMetric& metric, int threads, Precision precision) {
+  std::unique_ptr<SoftLandscape> landscape = std::make_unique<LennardJonesLandscape>(
+      model, box, layout, isa, PairSearchOptions{.threads = threads, .skin = path_skin, .precision = precision});
   if (metric.is_euclidean()) return landscape;
   return std::make_unique<KinematicLandscape>(std::move(landscape), metric);
 }
@@ -68,7 +68,8 @@ PreparedPair prepare(const Model& model, const ConfigurationPair& pair, std::siz
       throw_bad_input(fmt::format("{}: hard spheres of unequal masses have no path yet: equal masses are needed", where));
     return prepared;
   }
-  const auto landscape = make_landscape(*soft, pair.start.box, prepared.layout, isa, prepared.metric, options.threads);
+  const auto landscape =
+      make_landscape(*soft, pair.start.box, prepared.layout, isa, prepared.metric, options.threads, options.precision);
   const double highest_end = std::max(landscape->energy(prepared.start), landscape->energy(prepared.goal));
   prepared.landscape_energy = options.landscape_energy.value_or(highest_end);
   if (!(highest_end <= prepared.landscape_energy))
@@ -188,7 +189,7 @@ struct Walk {
 
   Walk(const Run& run, const ConfigurationPair& pair, const PreparedPair& prepared, const AlignedArray&)
       : landscape(make_landscape(std::get<LennardJonesModel>(run.model), pair.start.box, prepared.layout, run.isa, prepared.metric,
-                                 run.threads_per_path())),
+                                 run.threads_per_path(), run.options.precision)),
         stepper(*landscape, prepared.landscape_energy, options(run)) {}
   static typename Stepper::Options options(const Run& run) {
     typename Stepper::Options options;

@@ -12,6 +12,7 @@
 #include "core/decimated_trace.hpp"
 #include "core/run_monitor.hpp"
 #include "dispatch/isa.hpp"
+#include "interaction/lennard_jones.hpp"
 #include "path/finder.hpp"
 #include "run/checkpoint.hpp"
 #include "run/end_point_run.hpp"
@@ -38,6 +39,7 @@ struct PathRunOptions {
   bool reverse = false;                    // search from the far end too and keep the shorter path
   FinderOptions finder;
   int threads = 1;  // paths searched at once, or of one path the evaluations; no effect on any result
+  Precision precision = Precision::double_precision;  // of soft particles
   double step_length() const;
   // Throws Error(bad_input) naming the option that is out of range.
   void check() const;

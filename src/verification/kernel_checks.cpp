@@ -148,6 +148,50 @@ std::vector<Deviation> verify_lennard_jones_lists(const kernels::KernelTable& ta
   return verify_search(table, cases, PairSearch::list, "lj_list_");
 }
 
+namespace {
+
+// Whether some pair is so near to the cutoff that in single precision it may be on the other side. Untruncated, all energies at a
+// cutoff beyond the minimum have one sign.
+bool has_pair_at_cutoff(const LennardJonesModel& model, const Configuration& configuration) {
+  LennardJonesModel nearer = model;
+  nearer.truncation = Truncation::plain;
+  LennardJonesModel further = nearer;
+  nearer.cutoff = model.cutoff * (1.0 - tolerance::lj_mixed_cutoff);
+  further.cutoff = model.cutoff * (1.0 + tolerance::lj_mixed_cutoff);
+  return evaluate_reference(nearer, configuration).energy != evaluate_reference(further, configuration).energy;
+}
+
+}  // namespace
+
+std::vector<Deviation> verify_lennard_jones_mixed(const kernels::KernelTable& table, const std::vector<LennardJonesCase>& cases) {
+  Check energy(table, "lj_list_energy_mixed", tolerance::lj_mixed_sums),
+      gradient_energy(table, "lj_list_gradient_mixed energy", tolerance::lj_mixed_sums),
+      gradient(table, "lj_list_gradient_mixed gradient", tolerance::lj_mixed_gradient),
+      virial(table, "lj_list_gradient_mixed virial", tolerance::lj_mixed_sums);
+  Check energy_bits(table, "lj_list_energy_mixed, lj_list_gradient_mixed: same energy", tolerance::exact);
+  Check gradient_bits(table, "lj_list_force_mixed, lj_list_gradient_mixed: same gradient", tolerance::exact);
+  for (const auto& [name, model, configuration] : cases) {
+    if (!fits_list(model, configuration.box, default_skin) || has_pair_at_cutoff(model, configuration)) continue;
+    const reference::Evaluation expected = evaluate_reference(model, configuration);
+    const ParticleLayout layout(configuration.species, model.species.size());
+    const AlignedArray positions = layout.to_slots(configuration.positions);
+    LennardJones interaction(model, configuration.box, layout, table, {.precision = Precision::mixed});
+    AlignedArray g(layout.dimension(), std::numeric_limits<double>::quiet_NaN()), g_only = g;
+    const double e = interaction.energy(positions);
+    interaction.gradient(positions, g_only);
+    const auto with_gradient = interaction.energy_and_gradient(positions, g);
+
+    energy.add(name, energy_deviation(e, expected));
+    gradient_energy.add(name, energy_deviation(with_gradient.energy, expected));
+    gradient.add(name, gradient_deviation(g, layout, expected));
+    virial.add(name, virial_deviation(with_gradient.virial, expected));
+    energy_bits.add(name, !same_bits(e, with_gradient.energy));
+    gradient_bits.add(name, g_only != g);
+  }
+  return {energy.deviation, gradient_energy.deviation, gradient.deviation,
+          virial.deviation, energy_bits.deviation,     gradient_bits.deviation};
+}
+
 std::vector<Deviation> verify_vector_algebra(const kernels::KernelTable& table) {
   Check dot(table, "dot", tolerance::vector_sum), distance(table, "distance_squared", tolerance::vector_sum),
       second(table, "displacement_moments second", tolerance::vector_sum),
@@ -232,6 +276,7 @@ std::vector<Deviation> verify_kernels(Isa isa, const std::vector<LennardJonesCas
   const kernels::KernelTable& table = kernel_table(isa);
   std::vector<Deviation> deviations = verify_lennard_jones(table, cases);
   for (auto& deviation : verify_lennard_jones_lists(table, cases)) deviations.push_back(std::move(deviation));
+  for (auto& deviation : verify_lennard_jones_mixed(table, cases)) deviations.push_back(std::move(deviation));
   for (auto& deviation : verify_vector_algebra(table)) deviations.push_back(std::move(deviation));
   for (auto& deviation : verify_hard_spheres(table, hard_sphere_cases())) deviations.push_back(std::move(deviation));
   for (auto& deviation : verify_event_driven(table)) deviations.push_back(std::move(deviation));

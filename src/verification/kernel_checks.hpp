@@ -23,7 +23,15 @@ inline constexpr double lj_sums = 2e-14;
 // so that nothing averages out, and r^-13 has one power more (measured 6.4e-14 at x = 25).
 inline constexpr double lj_gradient = 3e-13;
 
-// Both hold for coordinates up to this [sigma]; beyond it the rounding of positions grows in proportion, and so does what is
+// The same in mixed precision, whose pairs are rounded to 2^-24 = 6e-8: once for each separation, of which r^-13 and r^-12 make
+// thirteen and twelve times, and once for each operation that follows (measured 3.9e-7 for a single close pair, and 6.8e-7 for the
+// worst of the forces on a few hundred particles, of 13 x 2^-24 = 7.7e-7).
+inline constexpr double lj_mixed_sums = 1.8e-6;
+inline constexpr double lj_mixed_gradient = 3.2e-6;
+// Pairs so near to the cutoff, relative to it, may or may not count: cases with one are left out.
+inline constexpr double lj_mixed_cutoff = 0x1p-22;
+
+// All hold for coordinates up to this [sigma]; beyond it the rounding of positions grows in proportion, and so does what is
 // allowed: such a deviation is divided by x / position_extent.
 inline constexpr double position_extent = 60.0;
 
@@ -64,6 +72,8 @@ std::string describe(const Deviation& deviation);
 // one.
 std::vector<Deviation> verify_lennard_jones(const kernels::KernelTable& table, const std::vector<LennardJonesCase>& cases);
 std::vector<Deviation> verify_lennard_jones_lists(const kernels::KernelTable& table, const std::vector<LennardJonesCase>& cases);
+// Those in mixed precision, but for cases in which a pair is at the cutoff.
+std::vector<Deviation> verify_lennard_jones_mixed(const kernels::KernelTable& table, const std::vector<LennardJonesCase>& cases);
 // The vector algebra of a table against loops in long double, at lengths that leave every remainder.
 std::vector<Deviation> verify_vector_algebra(const kernels::KernelTable& table);
 // These and those of hard_sphere_checks.hpp. Throws Error(bad_input) where the instruction set is not available.

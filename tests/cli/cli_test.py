@@ -258,7 +258,7 @@ class Energy(ProgramTest):
                 numpy.testing.assert_allclose(result["stress"], -virial / volume, rtol=0, atol=1e-10 * abs(virial).max() / volume)
 
     def test_keys_are_those_of_the_contract(self):
-        keys = {"energy", "energy_per_particle", "virial", "stress", "particles", "model", "isa", "images"}
+        keys = {"energy", "energy_per_particle", "virial", "stress", "particles", "model", "isa", "images", "precision"}
         file = DATA / "ka_melted_108.extxyz"
         result = self.done("energy", file)
         self.assertEqual(set(result), keys)
@@ -266,6 +266,23 @@ class Energy(ProgramTest):
         self.assertEqual((result["particles"], result["model"], result["images"]), (108, "kob-andersen", "all"))
         self.assertEqual(result["energy_per_particle"], result["energy"] / 108)
         self.assertEqual(len(result["stress"]), 6)
+
+    def test_mixed_precision_agrees_with_double_to_its_stated_error(self):
+        for name in ("ka_tiny_8", "ka_melted_108", "ka_rattled_256"):
+            arguments = ("energy", DATA / f"{name}.extxyz", "--forces")
+            double, mixed = self.done(*arguments), self.done(*arguments, "--precision", "mixed")
+            self.assertEqual((double["precision"], mixed["precision"]), ("double", "mixed"))
+            self.assertNotEqual(double["energy"], mixed["energy"])
+            self.assertAlmostEqual(mixed["energy"] / double["energy"], 1.0, delta=1e-6)
+            expected = numpy.array(double["forces"])
+            numpy.testing.assert_allclose(mixed["forces"], expected, rtol=0, atol=3e-6 * abs(expected).max())
+            numpy.testing.assert_allclose(mixed["stress"], double["stress"], rtol=1e-9)
+
+    def test_a_path_in_mixed_precision_reaches_its_goal_and_says_so(self):
+        arguments = ("path", "--model", "lennard-jones", *FLUID, "--precision", "mixed", "--out", self.folder / "run")
+        result = self.done(*arguments)
+        self.assertEqual((result["precision"], result["paths"][0]["outcome"]), ("mixed", "reached"))
+        self.assertIn('precision = "mixed"', re.sub("'", '"', (self.folder / "run" / "run.toml").read_text()))
 
     def test_the_reference_backend_agrees_with_the_kernels(self):
         for name, images, truncation in itertools.product(("ka_melted_108", "ka_tiny_8", "ka_rattled_256"), ("all", "minimum"),
@@ -1071,6 +1088,18 @@ class BadOptions(ProgramTest):
         two = self.file("two.xyz", frame(*TWO))
         for option, value in (("--cutoff", "2.5"), ("--images", "all"), ("--truncation", "plain")):
             self.refused_cleanly("energy", two, "--model", "hard-sphere", option, value, says=(option, "hard-sphere"))
+
+    def test_hard_spheres_are_not_in_mixed_precision(self):
+        self.refused_cleanly("endpoints", "--model", "hard-sphere", "--particles", "32", "--precision", "mixed",
+                             says=("--precision", "hard-sphere"))
+
+    def test_precision_is_double_or_mixed_and_mixed_needs_a_list(self):
+        file = DATA / "ka_tiny_8.extxyz"
+        self.refused_cleanly("energy", file, "--precision", "single", says=("single", "double", "mixed"))
+        self.refused_cleanly("energy", file, "--precision", "mixed", "--backend", "reference", says=("--precision", "reference"))
+        for subcommand, arguments in (("energy", (file, "--images", "minimum")), ("endpoints", (*ARGON, *TINY)),
+                                      ("path", (*ARGON, *TINY)), ("diffusion", (*ARGON, *TINY))):
+            self.refused_cleanly(subcommand, *arguments, "--precision", "mixed", says=("minimum-image", "mixed precision"))
 
     def test_plots_need_a_folder(self):
         self.refused("path", *ARGON, *TINY, "--plot", says=("--plot", "--out"))

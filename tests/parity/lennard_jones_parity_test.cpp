@@ -66,6 +66,17 @@ TEST_P(LennardJonesParity, ListKernelsAgreeWithTheReferenceOnEveryCaseThatAllows
   }
 }
 
+TEST_P(LennardJonesParity, MixedPrecisionAgreesWithTheReferenceOnEveryCaseThatAllowsAListAndHasNoPairAtTheCutoff) {
+  for (const LennardJonesCase& one : every_case())
+    for (const Deviation& deviation : verify_lennard_jones_mixed(kernel_table(GetParam()), {one}))
+      EXPECT_TRUE(deviation.passed() || deviation.cases == 0) << one.name << ": " << describe(deviation);
+  for (const Deviation& deviation : verify_lennard_jones_mixed(kernel_table(GetParam()), every_case())) {
+    RecordProperty(deviation.kernel, describe(deviation));
+    EXPECT_TRUE(deviation.passed()) << describe(deviation);
+    EXPECT_GT(deviation.cases, every_case().size() / 2);
+  }
+}
+
 TEST_P(LennardJonesParity, AForcedInstructionSetIsTheOneThatRuns) {
   const std::string name = to_string(GetParam());
   ASSERT_EQ(choose_isa(name), GetParam());

@@ -115,6 +115,74 @@ TEST(LargeSystems, DynamicsResumedFromAnArchiveGoesOnWithTheSameBits) {
   }
 }
 
+// The errors that docs/ARCHITECTURE.md states.
+TEST(LargeSystems, InMixedPrecisionALiquidHasNearlyItsEnergyAndForces) {
+  const LennardJonesModel model = kob_andersen();
+  const Configuration start = fcc_start(model, 4000, 1.2, 1);
+  const ParticleLayout layout(start.species, 2);
+  LennardJonesLandscape landscape(model, start.box, layout, testing::active_isa());
+  VelocityVerlet verlet(landscape, model, layout, layout.to_slots(start.positions), 2e-3);
+  verlet.draw_velocities(4.0, 1);
+  run(verlet, 300);
+  LennardJones exact(model, start.box, layout, kernel_table(testing::active_isa())),
+      mixed(model, start.box, layout, kernel_table(testing::active_isa()), {.precision = Precision::mixed});
+  AlignedArray exact_gradient(layout.dimension(), 0.0), mixed_gradient = exact_gradient;
+  const auto expected = exact.energy_and_gradient(verlet.position(), exact_gradient);
+  const auto found = mixed.energy_and_gradient(verlet.position(), mixed_gradient);
+  EXPECT_NEAR(found.energy / 4000.0, expected.energy / 4000.0, 2e-7);
+  EXPECT_NEAR(found.virial / 4000.0, expected.virial / 4000.0, 3e-6);
+  double largest = 0.0, error = 0.0;
+  for (std::size_t k = 0; k < layout.dimension(); ++k) {
+    largest = std::max(largest, std::fabs(exact_gradient[k]));
+    error = std::max(error, std::fabs(mixed_gradient[k] - exact_gradient[k]));
+  }
+  EXPECT_LT(error, 3e-6 * largest);
+  RecordProperty("energy_error", std::to_string(1e9 * (found.energy - expected.energy) / 4000.0) + "e-9");
+  RecordProperty("virial_error", std::to_string(1e9 * (found.virial - expected.virial) / 4000.0) + "e-9");
+  RecordProperty("force_error", std::to_string(1e9 * error / largest) + "e-9");
+}
+
+TEST(LargeSystems, DynamicsInMixedPrecisionConservesEnergyAsInDouble) {
+  const LennardJonesModel model = kob_andersen();
+  const Configuration start = fcc_start(model, 500, 1.2, 1);
+  const ParticleLayout layout(start.species, 2);
+  const auto drift_in = [&](Precision precision) {
+    LennardJonesLandscape landscape(model, start.box, layout, testing::active_isa(), {.precision = precision});
+    VelocityVerlet verlet(landscape, model, layout, layout.to_slots(start.positions), 1e-3);
+    verlet.draw_velocities(3.0, 1);
+    run(verlet, 500);
+    const auto total = [&] { return (verlet.potential_energy() + verlet.kinetic_energy()) / 500.0; };
+    const double before = total();
+    double worst = 0.0;
+    for (int k = 0; k < 40; ++k) {
+      run(verlet, 100);
+      worst = std::max(worst, std::fabs(total() - before));
+    }
+    RecordProperty(to_string(precision), std::to_string(1e6 * worst) + "e-6");
+    return worst;
+  };
+  // The jump of forces at the cutoff, of either precision, is most of it.
+  EXPECT_LT(drift_in(Precision::double_precision), 5e-4);
+  EXPECT_LT(drift_in(Precision::mixed), 5e-4);
+}
+
+TEST(LargeSystems, DynamicsInMixedPrecisionResumesWithTheSameBitsOnAnyNumberOfThreads) {
+  const Liquid liquid;
+  const auto in_mixed = [&](int threads) {
+    return LennardJonesLandscape(liquid.model, liquid.configuration.box, liquid.layout, testing::active_isa(),
+                                 {.threads = threads, .precision = Precision::mixed});
+  };
+  auto one = in_mixed(1), first = in_mixed(1), second = in_mixed(2);
+  VelocityVerlet whole = liquid.moving(one), begun = liquid.moving(first), resumed = liquid.moving(second, 1.0);
+  run(whole, 100);
+  run(begun, 37);
+  write(begun);
+  read(resumed);
+  run(resumed, 63);
+  EXPECT_EQ(resumed.position(), whole.position());
+  EXPECT_EQ(resumed.potential_energy(), whole.potential_energy());
+}
+
 // Two configurations of one trajectory and the energy between them.
 struct Ends {
   AlignedArray start, goal;

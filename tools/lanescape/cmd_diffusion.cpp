@@ -111,8 +111,10 @@ Json run_diffusion_command(DiffusionState& state, const Options& options, int& s
     throw_bad_input("--plot needs --out: the plots are files");
   state.setup.settle(model);
   const Configuration start = state.setup.start(model, state.common, isa);
+  state.system.check_precision_in(model, start.box);
   DiffusionRunOptions run_with = run_options(state, model, start);
   run_with.equilibration.threads = state.common.threads;
+  run_with.equilibration.precision = state.system.resolve_precision();
   OutputFolder folder = open_folder(state.common);
   folder.write_run_file("diffusion", options.resolved());
   TerminalMonitor monitor(state.common.quiet);
@@ -125,6 +127,7 @@ Json run_diffusion_command(DiffusionState& state, const Options& options, int& s
   if (state.setup.radius_factor()) result["radius_factor"] = *state.setup.radius_factor();
   result["particles"] = start.size();
   result["isa"] = to_string(isa);
+  if (!hard) result["precision"] = to_string(state.system.resolve_precision());
   status = run.interrupted || !run.equilibrated ? goal_not_reached : done;
   if (folder.exists()) write_curves(folder, run.diffusion, mixture_of(model));
   write_result(folder, "diffusion", options.resolved(), result);

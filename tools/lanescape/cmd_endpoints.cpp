@@ -20,10 +20,13 @@ Subcommand add_endpoints(CLI::App& app) {
             const Model model = state->system.resolve();
             state->setup.settle(model);
             const Configuration start = state->setup.start(model, state->common, isa);
+            state->system.check_precision_in(model, start.box);
             const EndPointProtocol protocol = state->setup.resolve(model, start.size(), state->common.seed);
             OutputFolder folder = open_folder(state->common);
             folder.write_run_file("endpoints", options->resolved());
-            EndPoints ends = make_end_points(model, start, protocol, isa, folder, state->common);
+            EndPoints ends = make_end_points(model, start, protocol, isa, folder, state->common, state->system.resolve_precision());
+            if (std::holds_alternative<LennardJonesModel>(model))
+              ends.json["precision"] = to_string(state->system.resolve_precision());
             if (state->setup.radius_factor()) ends.json["radius_factor"] = *state->setup.radius_factor();
             status = ends.reached ? done : goal_not_reached;
             write_result(folder, "endpoints", options->resolved(), ends.json);

@@ -15,12 +15,16 @@ struct EnergyResult {
   std::vector<double> gradient;  // 3N, user's order
 };
 
-EnergyResult by_kernels(const LennardJonesModel& model, const Configuration& configuration, Isa isa, int threads) {
+EnergyResult by_kernels(const LennardJonesModel& model, const Configuration& configuration, Isa isa,
+                        const PairSearchOptions& options) {
   const ParticleLayout layout = ParticleLayout::in_space_order(configuration, model.species.size());
-  LennardJones interaction(model, configuration.box, layout, kernel_table(isa), {.threads = threads});
+  LennardJones interaction(model, configuration.box, layout, kernel_table(isa), options);
   AlignedArray gradient(layout.dimension(), 0.0);
-  const auto e = interaction.energy_and_stress(layout.to_slots(configuration.positions), gradient);
-  return {e.energy, e.virial, e.virial_tensor, layout.to_user(gradient)};
+  const AlignedArray positions = layout.to_slots(configuration.positions);
+  const auto with_stress = interaction.energy_and_stress(positions, gradient);
+  // The stress is in double precision at any rate; all else is what a run would see.
+  const auto e = options.precision == Precision::mixed ? interaction.energy_and_gradient(positions, gradient) : with_stress;
+  return {e.energy, e.virial, with_stress.virial_tensor, layout.to_user(gradient)};
 }
 
 EnergyResult by_reference(const LennardJonesModel& model, const Configuration& configuration) {
@@ -69,13 +73,18 @@ Subcommand add_energy(CLI::App& app) {
             const LennardJonesModel model = state->system.resolve_soft("energy");
             if (state->backend != "simd" && state->backend != "reference")
               throw_bad_input(fmt::format("--backend: '{}' is not allowed: simd or reference", state->backend));
+            const Precision precision = state->system.resolve_precision();
+            if (state->backend == "reference" && precision == Precision::mixed)
+              throw_bad_input("--precision: mixed is not allowed with the reference, which is in double precision");
             const Configuration configuration = read_first_frame(state->file, model);
             check_cutoff(model, configuration.box);
+            state->system.check_precision_in(model, configuration.box);
             const bool simd = state->backend == "simd";
             OutputFolder folder = open_folder(state->common);
-            const EnergyResult e =
-                simd ? by_kernels(model, configuration, isa, state->common.threads) : by_reference(model, configuration);
-            const Json result = to_json(e, configuration, model, simd ? to_string(isa) : "reference", state->forces);
+            const PairSearchOptions search{.threads = state->common.threads, .precision = precision};
+            const EnergyResult e = simd ? by_kernels(model, configuration, isa, search) : by_reference(model, configuration);
+            Json result = to_json(e, configuration, model, simd ? to_string(isa) : "reference", state->forces);
+            result["precision"] = to_string(precision);
             write_result(folder, "energy", options->resolved(), result);
             return result;
           }};

@@ -41,6 +41,7 @@ struct PathState {
     options.finder.max_steps = max_steps;
     options.finder.frames = frames;
     options.threads = common.threads;
+    options.precision = system.resolve_precision();
     options.check();
     return options;
   }
@@ -219,6 +220,8 @@ Json run_path(PathState& state, const Options& options, const Options& setup_opt
   if (path_options.method != PathMethod::away) state.step = path_options.step_length();
   if (!from_files) state.setup.settle(model);
   PathInput input = read_input(state, model, isa);
+  if (!from_files) state.system.check_precision_in(model, input.start.box);
+  for (const ConfigurationPair& pair : input.pairs) state.system.check_precision_in(model, pair.start.box, path_skin);
   toml::table resolved = options.resolved();
   if (!from_files)
     for (auto& [key, value] : setup_options.resolved()) resolved.insert_or_assign(key, value);
@@ -228,7 +231,7 @@ Json run_path(PathState& state, const Options& options, const Options& setup_opt
   Json result;
   bool ends_made = true;
   if (!from_files) {
-    EndPoints ends = make_end_points(model, input.start, input.protocol, isa, folder, state.common);
+    EndPoints ends = make_end_points(model, input.start, input.protocol, isa, folder, state.common, path_options.precision);
     input.pairs = ends.run.pairs;
     ends_made = ends.reached;
     result["endpoints"] = std::move(ends.json);
@@ -254,6 +257,7 @@ Json run_path(PathState& state, const Options& options, const Options& setup_opt
                                 return a.radius_factor < b.radius_factor;
                               })->radius_factor;
   result["isa"] = to_string(isa);
+  if (std::holds_alternative<LennardJonesModel>(model)) result["precision"] = to_string(path_options.precision);
   status = all_reached ? done : goal_not_reached;
   if (folder.exists()) write_files(folder, paths, path_options.method, mixture);
   write_result(folder, "path", resolved, result);

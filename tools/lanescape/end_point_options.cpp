@@ -199,21 +199,22 @@ void write_equilibration(OutputFolder& folder, const EndPointRunResult& run, con
 }
 
 EndPointRunResult run_protocol(const Model& model, const Configuration& start, const EndPointProtocol& protocol, Isa isa,
-                               const CheckpointOptions& checkpoint, RunMonitor& monitor, int threads) {
+                               const CheckpointOptions& checkpoint, RunMonitor& monitor, int threads, Precision precision) {
   if (const auto* hard = std::get_if<HardSphereModel>(&model))
     return run_hard_end_points(*hard, start, std::get<HardEndPointOptions>(protocol), isa, checkpoint, monitor);
   EndPointOptions options = std::get<EndPointOptions>(protocol);
   options.threads = threads;
+  options.precision = precision;
   return run_end_points(std::get<LennardJonesModel>(model), start, options, isa, checkpoint, monitor);
 }
 
 }  // namespace
 
 EndPoints make_end_points(const Model& model, const Configuration& start, const EndPointProtocol& protocol, Isa isa,
-                          OutputFolder& folder, const CommonOptions& common) {
+                          OutputFolder& folder, const CommonOptions& common, Precision precision) {
   TerminalMonitor monitor(common.quiet);
   EndPoints result{
-      run_protocol(model, start, protocol, isa, {folder.checkpoints(), !common.resume.empty()}, monitor, common.threads),
+      run_protocol(model, start, protocol, isa, {folder.checkpoints(), !common.resume.empty()}, monitor, common.threads, precision),
       Json::object(), false};
   const EndPointRunResult& run = result.run;
   const bool hard = std::holds_alternative<HardSphereModel>(model);

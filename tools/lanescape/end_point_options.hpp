@@ -54,7 +54,7 @@ struct EndPoints {
   bool reached;  // all pairs were made
 };
 EndPoints make_end_points(const Model& model, const Configuration& start, const EndPointProtocol& protocol, Isa isa,
-                          OutputFolder& folder, const CommonOptions& common);
+                          OutputFolder& folder, const CommonOptions& common, Precision precision);
 
 // In the comment line of a kept pair whose radii were scaled.
 inline constexpr const char* radius_factor_key = "radius_factor";

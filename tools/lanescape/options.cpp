@@ -41,6 +41,7 @@ void SystemOptions::add_to(Options& options) {
   options.add("--cutoff", cutoff, "cutoff of a soft model in units of sigma_ab [2.5]");
   options.add("--images", images, "periodic images of a soft model: all within the cutoff, or the minimum image only [all]");
   options.add("--truncation", truncation, "of a soft model: shifted, plain or tail [shifted]");
+  options.add("--precision", precision, "of a soft model's pairs: double, or mixed: single with sums in double [double]");
 }
 
 Model SystemOptions::resolve() const {
@@ -50,11 +51,21 @@ Model SystemOptions::resolve() const {
     if (images) soft->images = parse_image_rule(*images);
     if (truncation) soft->truncation = parse_truncation(*truncation);
     soft->check();
+    resolve_precision();
   } else if (const char* given = cutoff ? "--cutoff" : images ? "--images" : truncation ? "--truncation" : nullptr) {
     throw_bad_input(fmt::format("{} is not allowed with model {}: hard spheres have no cutoff, image rule or truncation", given,
                                 mixture_of(resolved).name));
+  } else if (precision) {
+    throw_bad_input(fmt::format("--precision is not allowed with model {}: overlaps of hard spheres are decided exactly",
+                                mixture_of(resolved).name));
   }
   return resolved;
+}
+
+Precision SystemOptions::resolve_precision() const { return parse_precision(precision.value_or("double")); }
+
+void SystemOptions::check_precision_in(const Model& model, const Box& box, double skin) const {
+  if (const auto* soft = std::get_if<LennardJonesModel>(&model)) check_precision(*soft, box, resolve_precision(), skin);
 }
 
 LennardJonesModel SystemOptions::resolve_soft(const char* subcommand) const {

@@ -18,6 +18,7 @@
 #include "core/error.hpp"
 #include "core/run_monitor.hpp"
 #include "dispatch/isa.hpp"
+#include "interaction/lennard_jones.hpp"
 #include "output_folder.hpp"
 
 namespace lanescape::program {
@@ -123,11 +124,15 @@ struct SystemOptions {
   std::string model = "kob-andersen";
   std::string model_file;
   std::optional<double> cutoff;
-  std::optional<std::string> images, truncation;
+  std::optional<std::string> images, truncation, precision;
 
   void add_to(Options& options);
   // Throws Error(bad_input) for options of soft models with hard spheres.
   Model resolve() const;
+  // Of soft models.
+  Precision resolve_precision() const;
+  // Refuses mixed precision in a box where it is not to be had.
+  void check_precision_in(const Model& model, const Box& box, double skin = default_skin) const;
   // For a subcommand that knows soft models only, which the message for others names.
   LennardJonesModel resolve_soft(const char* subcommand) const;
 };

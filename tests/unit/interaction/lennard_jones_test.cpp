@@ -277,5 +277,36 @@ TEST(LennardJonesCutoff, IsRefusedWhereTheNumberOfImagesFitsNoInteger) {
 
 TEST(LennardJonesCutoff, HasNoLimitUnderTheMinimumImageRule) { EXPECT_EQ(refusal(1000.0, cube(1.0), ImageRule::minimum), ""); }
 
+TEST(MixedPrecision, TakesAListAtAnySizeAndRefusesWhatHasNone) {
+  const LennardJonesCase small = case_named("kob-andersen N=8 all shifted");
+  const ParticleLayout layout(small.configuration.species, 2);
+  const auto made = [&](const LennardJonesModel& model, PairSearch search) {
+    return LennardJones(model, small.configuration.box, layout, best_table(), {.search = search, .precision = Precision::mixed});
+  };
+  EXPECT_NE(made(small.model, PairSearch::automatic).list(), nullptr);
+  EXPECT_THROW(made(small.model, PairSearch::all_pairs), Error);
+  LennardJonesModel minimum = small.model;
+  minimum.images = ImageRule::minimum;
+  EXPECT_THROW(made(minimum, PairSearch::automatic), Error);
+}
+
+// Separations are as good anywhere in a box of any size: coordinates are not kept in single precision.
+TEST(MixedPrecision, LosesNothingInALargeBox) {
+  const LennardJonesModel model = lennard_jones();
+  for (const double length : {10.0, 1000.0, 60'000.0}) {
+    const Configuration pair{cube(length), {0, 0}, {0.9 * length, 0.7 * length, 0.0, 0.9 * length + 0.7, 0.7 * length - 0.8, -0.1}};
+    const ParticleLayout layout(pair.species, 1);
+    LennardJones interaction(model, pair.box, layout, best_table(), {.precision = Precision::mixed});
+    const double expected = energy(model, pair);
+    EXPECT_NEAR(interaction.energy(layout.to_slots(pair.positions)), expected, 1e-6 * std::fabs(expected)) << length;
+  }
+}
+
+TEST(MixedPrecision, HasNamesThatAreReadBack) {
+  for (const Precision precision : {Precision::double_precision, Precision::mixed})
+    EXPECT_EQ(parse_precision(to_string(precision)), precision);
+  EXPECT_THROW(parse_precision("single"), Error);
+}
+
 }  // namespace
 }  // namespace lanescape
