@@ -27,11 +27,10 @@ LANESCAPE_INLINE FloatPotential broadcast_single(const LjSinglePair& p) {
           broadcast_float(p.sigma_squared)};
 }
 
-// Sums over the neighbours of one row, of one species those of powers, in single precision: at a cutoff of 2.5 sigma
-// each of sixteen lanes adds half a dozen numbers, of SSE2's four two dozen, before it is turned into double. Turning the terms
-// themselves instead changes the worst error of a force from 6.8e-7 to 7.0e-7 and that of an energy not at all, for it is the
-// pairs' own rounding, but takes 1.3 to 1.6 times as long: longer than double precision throughout (4000 particles, AVX-512, Zen
-// 4).
+// Sums over the neighbours of one row, of one species those of powers, in single precision: at a cutoff of 2.5 sigma each of
+// sixteen lanes adds half a dozen numbers, of SSE2's four two dozen, before it is turned into double. Turning the terms themselves
+// instead leaves the worst error of a force at 6e-7 to 7e-7 and that of an energy as it is, for it is the pairs' own rounding; it
+// took about 1.3 to 1.7 times as long (4000 particles, AVX-512, Zen 4, separate runs on a busy machine).
 struct FloatPowerSums {
   FloatVector sixth = broadcast_float(0.0F), twelfth = sixth, count = sixth;
 };
