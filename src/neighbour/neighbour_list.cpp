@@ -68,23 +68,20 @@ kernels::NeighbourRows NeighbourList::rows_of(std::size_t block) const {
 }
 
 void NeighbourList::update(const AlignedArray& positions) {
-  if (made_at_.empty() || moved_too_far(positions))
-    rebuild(positions);
-  else
-    points_.refresh(positions);
-}
-
-bool NeighbourList::moved_too_far(const AlignedArray& positions) const {
+  if (made_at_.empty()) return rebuild(positions);
   // A little less than half the skin: the displacement is rounded too.
   const double allowed = 0.499 * skin_;
-  std::vector<double> furthest(static_cast<std::size_t>(threads_));
   const std::size_t units = slots_ / kernels::slot_padding;
+  std::vector<double> furthest(static_cast<std::size_t>(threads_));
+  // Points are refreshed in the same go: that it was for nothing is rare, and threads wait for one another once less.
   for_each_part(threads_, [&](int part) {
     furthest[static_cast<std::size_t>(part)] = table_->largest_displacement_squared(
         made_at_.data(), positions.data(), slots_, part_begin(units, part, threads_) * kernels::slot_padding,
         part_begin(units, part + 1, threads_) * kernels::slot_padding);
+    points_.refresh(positions, part);
   });
-  return !std::all_of(furthest.begin(), furthest.end(), [&](double squared) { return squared <= allowed * allowed; });
+  if (!std::all_of(furthest.begin(), furthest.end(), [&](double squared) { return squared <= allowed * allowed; }))
+    rebuild(positions);
 }
 
 void NeighbourList::rebuild(const AlignedArray& positions) {

@@ -62,7 +62,6 @@ class NeighbourList {
     std::size_t part, first_neighbour;          // in neighbours_[part]
     std::size_t padded_neighbours;
   };
-  bool moved_too_far(const AlignedArray& positions) const;
   void rebuild(const AlignedArray& positions);
   void cut_into_blocks();
   void fill(Block& block, std::size_t part, std::size_t begin);

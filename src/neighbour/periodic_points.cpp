@@ -120,7 +120,7 @@ void PeriodicPoints::sort(const AlignedArray& positions) {
   const std::size_t n = size();
   points_.resize(kernels::point_width * n, 0.0);
   if (fixed_unit_ > 0.0) fixed_points_.resize(kernels::point_width * n, 0);
-  refresh(positions);
+  for_each_part(threads_, [&](int part) { refresh(positions, part); });
   for (auto& column : columns_) column.resize(n + read_ahead, 0.0F);
   for_each_part(threads_, [&](int part) {
     for (std::size_t k = part_begin(n, part, threads_); k < part_begin(n, part + 1, threads_); ++k)
@@ -169,20 +169,18 @@ void PeriodicPoints::sort_species(const AlignedArray& positions, std::size_t spe
     if (own[k - base]) grid.rows.push_back(static_cast<std::uint32_t>(kernels::point_width * k));
 }
 
-void PeriodicPoints::refresh(const AlignedArray& positions) {
-  const std::size_t n = size();
-  for_each_part(threads_, [&](int part) {
-    const double *x = positions.data(), *y = x + layout_slots_, *z = y + layout_slots_;
-    for (std::size_t k = part_begin(n, part, threads_); k < part_begin(n, part + 1, threads_); ++k) {
-      double* point = points_.data() + kernels::point_width * k;
-      const std::size_t slot = slots_[k];
-      const std::array<double, 3>& shift = shifts_[k];
-      point[0] = x[slot] + shift[0];
-      point[1] = y[slot] + shift[1];
-      point[2] = z[slot] + shift[2];
-    }
-    if (fixed_unit_ > 0.0) fix_points(part_begin(n, part, threads_), part_begin(n, part + 1, threads_));
-  });
+void PeriodicPoints::refresh(const AlignedArray& positions, int part) {
+  const std::size_t begin = part_begin(size(), part, threads_), end = part_begin(size(), part + 1, threads_);
+  const double *x = positions.data(), *y = x + layout_slots_, *z = y + layout_slots_;
+  for (std::size_t k = begin; k < end; ++k) {
+    double* point = points_.data() + kernels::point_width * k;
+    const std::size_t slot = slots_[k];
+    const std::array<double, 3>& shift = shifts_[k];
+    point[0] = x[slot] + shift[0];
+    point[1] = y[slot] + shift[1];
+    point[2] = z[slot] + shift[2];
+  }
+  if (fixed_unit_ > 0.0) fix_points(begin, end);
 }
 
 void PeriodicPoints::fix_points(std::size_t begin, std::size_t end) {

@@ -27,7 +27,7 @@ class PeriodicPoints {
   // Takes positions (layout's order, wrapped or not) and sorts. O(N).
   void sort(const AlignedArray& positions);
   // The same points at positions that have moved since.
-  void refresh(const AlignedArray& positions);
+  void refresh(const AlignedArray& positions, int part);  // a part of them, one per thread
 
   std::size_t species() const { return grids_.size(); }
   std::size_t size() const { return slots_.size(); }
