@@ -307,13 +307,16 @@ std::vector<int> thread_counts() {
 }
 
 void register_system(const std::string& model, std::size_t particles, const Source& source) {
+  // Enough for a list to be renewed some times, whatever the size.
+  const auto steps = static_cast<benchmark::IterationCount>(std::max<std::size_t>(48, 1'000'000 / (particles + 1)));
   const auto add_in = [&](Precision precision, const std::string& what, Isa isa, int threads, auto body) {
     const auto name = fmt::format("{}/{}{}/N:{}/threads:{}/{}", model, what, precision == Precision::mixed ? "-mixed" : "",
                                   particles, threads, to_string(isa));
     const Setting setting{source, isa, threads, precision};
-    benchmark::RegisterBenchmark(name.c_str(), [body, setting](benchmark::State& state) { body(state, setting); })
-        ->UseManualTime()
-        ->Unit(benchmark::kMicrosecond);
+    auto* registered =
+        benchmark::RegisterBenchmark(name.c_str(), [body, setting](benchmark::State& state) { body(state, setting); });
+    registered->UseManualTime()->Unit(benchmark::kMicrosecond);
+    if (what.starts_with("step")) registered->Iterations(steps);
   };
   const auto add = [&](const std::string& what, Isa isa, int threads, auto body) {
     add_in(Precision::double_precision, what, isa, threads, body);

@@ -110,7 +110,7 @@ def cores(count):
 
 
 def particle_number(n, _=None):
-    return f"{n:g}" if n < 10_000 else f"{n / 1000:g}k" if n < 1_000_000 else f"{n / 1e6:g}M"
+    return f"{n:g}" if n < 10_000 else f"{n / 1000:g}k" if n < 1_000_000 else f"{n / 1e6:.2g}M"
 
 
 def draw_line(axes, rows, colour, label, style):
