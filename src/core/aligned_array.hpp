@@ -11,7 +11,7 @@
 namespace lanescape {
 
 // Allocates on cache-line boundaries, as the kernels demand (kernels::array_alignment). Large arrays are put on large pages where
-// the system has them: a system of a million particles is otherwise slowed by a fifth by the translation of addresses.
+// the system has them: the translation of addresses otherwise slows a step of 32,000 particles or more by a sixth.
 template <class T>
 struct AlignedAllocator {
   using value_type = T;
