@@ -120,8 +120,8 @@ struct ListLiquid {
     for (double& x : start.positions) x += default_skin;
     moved = layout.to_slots(start.positions);
   }
-  LennardJones interaction(Isa isa) const {
-    return LennardJones(model, start.box, layout, kernel_table(isa), {.search = PairSearch::list});
+  LennardJones interaction(Isa isa, Precision precision = Precision::double_precision) const {
+    return LennardJones(model, start.box, layout, kernel_table(isa), {.search = PairSearch::list, .precision = precision});
   }
 };
 
@@ -147,6 +147,18 @@ void lj_list_stress(Isa isa, std::uint64_t rounds) {
   ListLiquid liquid;
   LennardJones interaction = liquid.interaction(isa);
   for (; rounds > 0; --rounds) keep(interaction.energy_and_stress(liquid.positions, liquid.out));
+}
+
+void lj_list_energy_mixed(Isa isa, std::uint64_t rounds) {
+  const ListLiquid liquid;
+  LennardJones interaction = liquid.interaction(isa, Precision::mixed);
+  for (; rounds > 0; --rounds) keep(interaction.energy(liquid.positions));
+}
+
+void lj_list_gradient_mixed(Isa isa, std::uint64_t rounds) {
+  ListLiquid liquid;
+  LennardJones interaction = liquid.interaction(isa, Precision::mixed);
+  for (; rounds > 0; --rounds) keep(interaction.energy_and_gradient(liquid.positions, liquid.out));
 }
 
 // The list made anew, by particles that jump there and back.
@@ -271,6 +283,8 @@ constexpr Case cases[] = {
     {"lj_list_force", lj_list_force, 4},
     {"lj_list_gradient", lj_list_gradient, 4},
     {"lj_list_stress", lj_list_stress, 4},
+    {"lj_list_energy_mixed", lj_list_energy_mixed, 4},
+    {"lj_list_gradient_mixed", lj_list_gradient_mixed, 4},
     {"neighbour_list", neighbour_list, 4},
     {"contour_step", contour_step, 40},
     {"sphere_any_overlap", sphere_any_overlap, 20},
