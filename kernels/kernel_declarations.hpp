@@ -18,6 +18,8 @@ double lj_list_energy_mixed(const LjListInput& in) noexcept;
 void lj_list_force_mixed(const LjListInput& in, double* gradient) noexcept;
 void lj_list_gradient_mixed(const LjListInput& in, double* gradient, LjOutput& out) noexcept;
 std::size_t points_within(const PointGrid& grid, const NeighbourQuery& query, std::uint32_t* out, std::size_t capacity) noexcept;
+void lj_probe(const ProbeInput& in, const double* position, ProbeOutput& out) noexcept;
+void lj_probe_energies(const ProbeInput& in, const double* positions, std::size_t count, double* energies) noexcept;
 
 bool sphere_any_overlap(const SphereInput& in) noexcept;
 std::size_t sphere_pairs_within(const SphereInput& in, double reach, SpherePair* out, std::size_t capacity) noexcept;

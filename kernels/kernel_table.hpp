@@ -30,6 +30,10 @@ struct KernelTable {
   // in rising order; their number, or capacity + 1 where there may be no room for all of them and a vector more.
   std::size_t (*points_within)(const PointGrid&, const NeighbourQuery&, std::uint32_t* out, std::size_t capacity) noexcept;
 
+  // What a Lennard-Jones particle would feel at a position; the energies of many, x0 y0 z0 x1 ..., to the same bits.
+  void (*lj_probe)(const ProbeInput&, const double* position, ProbeOutput&) noexcept;
+  void (*lj_probe_energies)(const ProbeInput&, const double* positions, std::size_t count, double* energies) noexcept;
+
   // Hard spheres over all pairs: whether any overlap; the pairs with r < s_ij + reach (their number, which may exceed the
   // capacity: then only so many are written); the smallest r - s_ij (infinity where there is no pair).
   bool (*sphere_any_overlap)(const SphereInput&) noexcept;

@@ -18,6 +18,8 @@ constinit const KernelTable table{
     .lj_list_force_mixed = lj_list_force_mixed,
     .lj_list_gradient_mixed = lj_list_gradient_mixed,
     .points_within = points_within,
+    .lj_probe = lj_probe,
+    .lj_probe_energies = lj_probe_energies,
     .sphere_any_overlap = sphere_any_overlap,
     .sphere_pairs_within = sphere_pairs_within,
     .sphere_smallest_gap = sphere_smallest_gap,
