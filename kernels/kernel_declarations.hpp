@@ -20,6 +20,8 @@ void lj_list_gradient_mixed(const LjListInput& in, double* gradient, LjOutput& o
 std::size_t points_within(const PointGrid& grid, const NeighbourQuery& query, std::uint32_t* out, std::size_t capacity) noexcept;
 void lj_probe(const ProbeInput& in, const double* position, ProbeOutput& out) noexcept;
 void lj_probe_energies(const ProbeInput& in, const double* positions, std::size_t count, double* energies) noexcept;
+std::size_t lj_probe_first_clear(const ProbeInput& in, const double* clearances, const double* positions,
+                                 std::size_t count) noexcept;
 
 bool sphere_any_overlap(const SphereInput& in) noexcept;
 std::size_t sphere_pairs_within(const SphereInput& in, double reach, SpherePair* out, std::size_t capacity) noexcept;

@@ -33,6 +33,9 @@ struct KernelTable {
   // What a Lennard-Jones particle would feel at a position; the energies of many, x0 y0 z0 x1 ..., to the same bits.
   void (*lj_probe)(const ProbeInput&, const double* position, ProbeOutput&) noexcept;
   void (*lj_probe_energies)(const ProbeInput&, const double* positions, std::size_t count, double* energies) noexcept;
+  // The first of these positions with no point of any species nearer than that species' clearance; their number if there is none.
+  std::size_t (*lj_probe_first_clear)(const ProbeInput&, const double* clearances, const double* positions,
+                                      std::size_t count) noexcept;
 
   // Hard spheres over all pairs: whether any overlap; the pairs with r < s_ij + reach (their number, which may exceed the
   // capacity: then only so many are written); the smallest r - s_ij (infinity where there is no pair).

@@ -20,6 +20,7 @@ constinit const KernelTable table{
     .points_within = points_within,
     .lj_probe = lj_probe,
     .lj_probe_energies = lj_probe_energies,
+    .lj_probe_first_clear = lj_probe_first_clear,
     .sphere_any_overlap = sphere_any_overlap,
     .sphere_pairs_within = sphere_pairs_within,
     .sphere_smallest_gap = sphere_smallest_gap,

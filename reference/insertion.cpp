@@ -76,6 +76,20 @@ Probe probe(const Vector& position, int species_of_probe, std::span<const double
   return sum;
 }
 
+bool is_clear(const Vector& position, std::span<const double> clearances, std::span<const double> positions,
+              std::span<const int> species, const Vector& box) {
+  for (std::size_t j = 0; j < species.size(); ++j) {
+    double squared = 0.0;  // of the nearest image
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double d = position[axis] - positions[3 * j + axis], nearest = d - box[axis] * std::nearbyint(d / box[axis]);
+      squared += nearest * nearest;
+    }
+    const double clearance = clearances[static_cast<std::size_t>(species[j])];
+    if (squared < clearance * clearance) return false;
+  }
+  return true;
+}
+
 Vector usher_step(const UsherRule& rule, double energy, const Vector& gradient) {
   const double slope = std::hypot(gradient[0], gradient[1], gradient[2]);
   const double ds = energy > rule.overlap_energy ? rule.contact - std::pow(4.0 / energy, 1.0 / 12.0)

@@ -25,6 +25,10 @@ struct Probe {
 Probe probe(const std::array<double, 3>& position, int species_of_probe, std::span<const double> positions,
             std::span<const int> species, const std::array<double, 3>& box, const Mixture& mixture, Truncation truncation);
 
+/// Whether no particle, nor any of its images, is nearer to `position` than the clearance of its species [sigma].
+bool is_clear(const std::array<double, 3>& position, std::span<const double> clearances, std::span<const double> positions,
+              std::span<const int> species, const std::array<double, 3>& box);
+
 /// One step of USHER (Eqs. 5 and 6) from where a probe has `energy` and `gradient` towards energy `target`.
 struct UsherRule {
   double target;                // U0 [epsilon]

@@ -34,6 +34,7 @@ ProbeField::ProbeField(const LennardJonesModel& model, const Configuration& flui
     const std::size_t ab = model.pair(static_cast<std::size_t>(species), b);
     const double cutoff = model.cutoff * model.sigma[ab];
     largest_cutoff_ = std::max(largest_cutoff_, cutoff);
+    largest_sigma_ = std::max(largest_sigma_, model.sigma[ab]);
     pairs_.push_back(all[ab]);
     cells_.emplace_back(box_, cutoff, points[b].size());
     cells_.back().assign(points[b]);
@@ -84,6 +85,16 @@ void ProbeField::energies(std::span<const double> positions, std::span<double> o
   for (std::size_t k = 0; k < wrapped.size(); ++k) wrapped[k] = box_.wrapped(k % 3, wrapped[k]);
   table_->lj_probe_energies({views_.data(), views_.size()}, wrapped.data(), out.size(), out.data());
   for (double& energy : out) energy += constant_;
+}
+
+std::vector<double> ProbeField::clearances(double energy) const {
+  std::vector<double> clearances;
+  for (const kernels::LjPair& pair : pairs_) clearances.push_back(std::pow(pair.c12 / energy, 1.0 / 12.0));
+  return clearances;
+}
+
+std::size_t ProbeField::first_clear(std::span<const double> clearances, std::span<const double> positions) const {
+  return table_->lj_probe_first_clear({views_.data(), views_.size()}, clearances.data(), positions.data(), positions.size() / 3);
 }
 
 void ProbeField::insert(const Point& position, int species) {

@@ -32,6 +32,12 @@ class ProbeField {
   // Of many positions, x0 y0 z0 x1 ..., to the same bits.
   void energies(std::span<const double> positions, std::span<double> out) const;
 
+  // Per species the distance at which r^-12 alone gives a probe this energy [sigma].
+  std::vector<double> clearances(double energy) const;
+  // The first of these positions, which are in the box, with no particle nearer than its species' clearance; their number if there
+  // is none.
+  std::size_t first_clear(std::span<const double> clearances, std::span<const double> positions) const;
+
   // Changes the fluid. remove() returns whether there was a particle with these coordinates, to the bit once wrapped.
   void insert(const Point& position, int species);
   bool remove(const Point& position, int species);
@@ -39,7 +45,10 @@ class ProbeField {
   const Box& box() const { return box_; }
   std::size_t size() const;  // particles of the fluid
   int species() const { return species_; }
-  double largest_cutoff() const { return largest_cutoff_; }  // of the probe [sigma]
+  double largest_cutoff() const { return largest_cutoff_; }  // of the probe's pairs [sigma]
+  double largest_sigma() const { return largest_sigma_; }    // likewise
+  // The part of the energy that does not depend on the place, but on how many particles there are [epsilon].
+  double constant() const { return constant_; }
 
  private:
   // Cells and pair, as the kernels take them; made anew at every change.
@@ -49,7 +58,7 @@ class ProbeField {
   const kernels::KernelTable* table_;
   Box box_;
   int species_;
-  double largest_cutoff_ = 0.0;
+  double largest_cutoff_ = 0.0, largest_sigma_ = 0.0;
   std::vector<ProbeCells> cells_;  // by species
   std::vector<kernels::LjPair> pairs_;
   std::vector<double> tail_;  // what the energy rises by for each particle there is of a species
