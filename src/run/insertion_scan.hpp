@@ -33,7 +33,7 @@ struct InsertionScanOptions {
   InsertionOptions insertion;  // everything else
   int species = 0;
   std::uint64_t particles = 1000, configurations = 5, count = 100;  // count: of places per configuration and combination
-  std::uint64_t equilibration_steps = 4000, between_steps = 1000;
+  std::uint64_t equilibration_steps = 10'000, between_steps = 2000;
   double time_step = 0.002;
   std::uint64_t widom_probes = 0;     // per configuration, for the chemical potential
   std::uint64_t holes = 0;            // per configuration

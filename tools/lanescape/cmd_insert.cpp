@@ -24,7 +24,7 @@ struct InsertState {
   std::uint64_t count = 1, remove = 0;
   std::string removal = "random";
   std::optional<double> temperature, density;
-  std::uint64_t particles = 1000, equilibration_steps = 4000;
+  std::uint64_t particles = 1000, equilibration_steps = 10'000;
   double time_step = 0.002;
   std::optional<double> densify;
   double rate = 0.005;
@@ -32,7 +32,7 @@ struct InsertState {
   bool scan = false, plot = false;
   std::string states = "0.4:2.5,0.5:2.5,0.6:2.5,0.7:2.5,0.8:2.5", methods = "usher", tolerances, largest_steps = "default",
               iso_energies = "0";
-  std::uint64_t configurations = 5, between_steps = 1000, widom_probes = 0, holes = 0, traced_searches = 0;
+  std::uint64_t configurations = 5, between_steps = 2000, widom_probes = 0, holes = 0, traced_searches = 0;
 };
 
 double mean_excess_energy(const LennardJonesModel& model, const Configuration& fluid, Isa isa) {
