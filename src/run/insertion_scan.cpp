@@ -172,15 +172,19 @@ class StateScan {
 
   void add_holes(ScanState& out, std::size_t which) const {
     const std::vector<Hole>& holes = holes_[which];
-    const auto mean = [&](double Hole::* member) {
-      double sum = 0.0;
-      for (const Hole& hole : holes) sum += hole.*member;
-      return holes.empty() ? 0.0 : sum / static_cast<double>(holes.size());
+    // A few holes are long tubes, whose fits would rule any mean.
+    const auto median = [&](double Hole::* member) {
+      std::vector<double> values;
+      for (const Hole& hole : holes) values.push_back(hole.*member);
+      if (values.empty()) return 0.0;
+      const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+      std::nth_element(values.begin(), middle, values.end());
+      return *middle;
     };
     out.holes.insert(out.holes.end(),
                      {at_.density, at_.temperature, options_->iso_energies[which], static_cast<double>(holes.size()),
-                      mean(&Hole::mean_radius), mean(&Hole::semi_minor), mean(&Hole::semi_major), mean(&Hole::anisotropy),
-                      mean(&Hole::eccentricity), mean(&Hole::open_directions)});
+                      median(&Hole::mean_radius), median(&Hole::semi_minor), median(&Hole::semi_major), median(&Hole::anisotropy),
+                      median(&Hole::eccentricity), median(&Hole::open_directions)});
   }
 
   void trace_errors(const ProbeField& field, double excess, ScanState& out) {

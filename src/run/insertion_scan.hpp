@@ -65,9 +65,11 @@ struct ScanStateRow {
   double chemical_potential = 0.0, chemical_potential_error = 0.0;         // excess, by Widom's method; 0 without probes
 };
 
+// Medians over holes.
 struct ScanHoleRow {
   double density = 0.0, temperature = 0.0, iso_energy = 0.0;
-  double holes = 0.0, mean_radius = 0.0, semi_minor = 0.0, semi_major = 0.0, anisotropy = 0.0, eccentricity = 0.0, open = 0.0;
+  double holes = 0.0;  // how many
+  double mean_radius = 0.0, semi_minor = 0.0, semi_major = 0.0, anisotropy = 0.0, eccentricity = 0.0, open = 0.0;
 };
 
 // |xi| at one evaluation and at the next, of searches by direct USHER.
