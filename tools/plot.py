@@ -1,14 +1,16 @@
 #!/usr/bin/python3
 """Draw the figures of a run's folder: tools/plot.py DIR
 
-Reads from DIR what `lanescape path`, `lanescape endpoints` and `lanescape diffusion` write there:
+Reads from DIR what `lanescape path`, `lanescape endpoints`, `lanescape diffusion` and `lanescape insert` write there:
   result.json               outcome, length, landscape energy, ... of each path (required)
-  run.toml                  the target temperature (optional)
+  run.toml                  the target temperature; of insertion also the model and the number of particles (optional)
   path-0001-trace.csv ...   one per path in result.json
   path-0001.extxyz ...      only the first line, the number of particles (optional)
   path-0001-steps.csv, path-0001-particles.csv     histograms over steps, path lengths of particles (optional)
   endpoints-trace.csv, radial-distribution.csv     where end points were made
   diffusion.csv             correlations and displacements
+  densification.csv         growth at constant energy
+  scan.csv, holes.csv, errors.csv     cost of insertion, sizes of holes, how errors shrink
 
 Writes into DIR:
   path-0001.png ...   energy, distance to the goal, share of direct steps and participation ratio along the path
@@ -17,89 +19,40 @@ Writes into DIR:
   diffusion.png       velocity correlation, its integral and the mean squared displacement
   equilibration.png   temperature, potential energy, energy drift and radial distribution functions; of hard spheres
                       compressibility and collision rate
+  densification.png   energy, pressure, temperature and excess energy against density; of the Lennard-Jones model with long-range
+                      corrections three equations of state from the first row's density and temperature on, at their constant energy
+  insertion-cost.png       evaluations by method and tolerance against density, and against temperature where a density has several
+                           (the three highest such densities)
+  insertion-distance.png   mean and largest distance between start and place against density
+  insertion-step.png       evaluations against the largest step, from three of them on
+  insertion-holes.png      radii, anisotropy and eccentricity of regions of low energy against density
+  insertion-errors.png     error at one evaluation and at the next
+Of several temperatures at a density those figures, save for the panels against temperature and insertion-errors.png, show the one with
+most densities; of several largest steps, save in insertion-step.png, the default or else the first.
 
 Exit status 0, or 2 with one line on stderr when something is missing or cannot be read; then nothing is drawn.
 Lengths are in sigma, energies in epsilon, temperatures in epsilon/k_B.
 """
 
 import csv
-import json
 import sys
-import tomllib
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from matplotlib.transforms import blended_transform_factory
 
-# Okabe and Ito, told apart with every common colour vision.
-BLUE, VERMILLION, GREEN, PURPLE, GREY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#595959"
-PAIR_STYLES = [(BLUE, "-"), (VERMILLION, "--"), (GREEN, "-."), (PURPLE, ":"), ("#E69F00", "-"), ("#56B4E9", "--")]
+import plot_insertion
+from plot_style import (BLUE, GREEN, GREY, PAIR_STYLES, PURPLE, VERMILLION, Unusable, legend_above, letter, read_result, read_run_file,
+                        read_table, read_text, save, system_parts)
+
 FREE_PHASES = ("settling", "towards the far end point", "between pairs")
 SHORT_PHASE = {"temperature check": "T check", "towards the far end point": "pairs", "between pairs": "pairs"}
 HISTOGRAM_FROM = 10  # paths
-MODEL_NAMES = {"kob-andersen": "Kob-Andersen", "lennard-jones": "Lennard-Jones", "hard-sphere": "Hard spheres",
-               "hard-sphere-binary": "Binary hard spheres"}
-
-plt.rcParams.update({
-    "font.size": 13, "axes.labelsize": 14, "axes.titlesize": 15, "legend.fontsize": 12, "xtick.labelsize": 12, "ytick.labelsize": 12,
-    "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False, "savefig.dpi": 150, "lines.linewidth": 2.0,
-    "mathtext.fontset": "dejavusans", "axes.linewidth": 1.0,
-})
-
-
-class Unusable(Exception):
-    """What is missing or unreadable, in one line."""
 
 
 # ---- reading
-
-def read_text(file):
-    try:
-        return file.read_text()
-    except (OSError, UnicodeDecodeError) as error:
-        raise Unusable(f"{file}: {getattr(error, 'strerror', None) or 'not a text file'}") from error
-
-
-def read_result(folder):
-    if not folder.is_dir():
-        raise Unusable(f"{folder}: no such folder")
-    file = folder / "result.json"
-    try:
-        result = json.loads(read_text(file))
-    except json.JSONDecodeError as error:
-        raise Unusable(f"{file}: line {error.lineno}: not JSON: {error.msg}") from error
-    if not isinstance(result, dict):
-        raise Unusable(f"{file}: not a JSON object")
-    return result
-
-
-def read_run_file(folder):
-    file = folder / "run.toml"
-    if not file.exists():
-        return {}
-    try:
-        return tomllib.loads(read_text(file))
-    except tomllib.TOMLDecodeError as error:
-        raise Unusable(f"{file}: not TOML: {error}") from error
-
-
-def read_table(file, required):
-    """Columns by name, as arrays of numbers; `phase` stays text."""
-    reader = csv.DictReader(read_text(file).splitlines())
-    header, rows = reader.fieldnames or [], list(reader)
-    missing = [name for name in required if name not in header]
-    if missing:
-        raise Unusable(f"{file}: no column {missing[0]}")
-    try:
-        return {name: np.array([row[name] if name == "phase" else float(row[name]) for row in rows]) for name in header}
-    except (TypeError, ValueError) as error:
-        raise Unusable(f"{file}: not a table of numbers: {error}") from error
-
 
 def read_path(folder, number, summary):
     """The summary of a path in result.json with its trace and number of particles (None where unknown)."""
@@ -141,34 +94,6 @@ def draw_series(axes, x, y, colour, statistic=np.nanmedian, label=None, windows=
     marker = "o" if len(x) < 3 else None
     axes.plot(x, y, color=colour, alpha=0.3, linewidth=0.8)
     axes.plot(x, running(y, statistic, windows), color=colour, marker=marker, label=label)
-
-
-def legend_above(axes, columns=4, handle=1.6, gap=1.4):
-    """A legend between the panels, where no data can be."""
-    if axes.get_legend_handles_labels()[0]:
-        axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=columns, borderaxespad=0.0, borderpad=0.3,
-                    handlelength=handle, columnspacing=gap)
-
-
-def letter(axes, text):
-    axes.set_title(text, loc="left", fontsize=13, pad=8.0)
-
-
-def save(figure, file):
-    figure.savefig(file, bbox_inches="tight", pad_inches=0.15)
-    plt.close(figure)
-
-
-def system_parts(result, temperature, particles):
-    """What a title says of the system, as far as it is known."""
-    model = result.get("model", "")
-    parts = [MODEL_NAMES.get(model, model)] if model else []
-    packing = result.get("packing_fraction") or result.get("endpoints", {}).get("packing_fraction")
-    if packing is not None:
-        parts.append(rf"$\phi={packing:.4g}$")
-    elif temperature is not None:
-        parts.append(f"$T={temperature:g}$")
-    return parts + ([f"$N={particles}$"] if particles else [])
 
 
 def species_name(symbol, model):
@@ -609,8 +534,9 @@ def draw_folder(folder):
                                ["time", "temperature", "potential_energy_per_particle", "energy_per_particle", "phase"])
         equilibration = trace, read_table(folder / "radial-distribution.csv", ["r"])
     diffusion = read_table(folder / "diffusion.csv", ["time"]) if (folder / "diffusion.csv").exists() else None
-    if not paths and equilibration is None and diffusion is None:
-        raise Unusable(f"{folder}: neither paths in result.json nor endpoints-trace.csv nor diffusion.csv: nothing to draw")
+    insertion = plot_insertion.read_insertion(folder)
+    if not paths and equilibration is None and diffusion is None and not insertion:
+        raise Unusable(f"{folder}: neither paths in result.json nor a table of end points, diffusion or insertion: nothing to draw")
     made = {**result, "model": result.get("model") or run.get("model", "")}
     temperature = target_temperature(run)
     for path in paths:
@@ -620,6 +546,7 @@ def draw_folder(folder):
         draw_statistics(folder, paths, made, temperature)
     if diffusion is not None:
         draw_diffusion(folder, diffusion, made, temperature)
+    plot_insertion.draw_insertion(folder, insertion, made, run)
     if equilibration is not None and "compressibility" in equilibration[0]:
         if len(equilibration[0]["time"]) > 0:
             draw_hard_equilibration(folder, *equilibration, made, paths[0]["particles"] if paths else None)
