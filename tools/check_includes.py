@@ -30,7 +30,7 @@ ABOVE_THE_API = {"capi"}  # sees the installed headers although it has their num
 SEES_KERNEL_TABLE = {"dispatch", "neighbour", "interaction", "dynamics", "verification"}
 SEES_REFERENCE = {"verification"}
 # The program starts runs, reads files and verifies; landscapes, dynamics, steppers and paths reach it through run/ only.
-PROGRAM_STAGES = {"core", "configuration", "io", "dispatch", "interaction", "run", "verification"}
+PROGRAM_STAGES = {"core", "configuration", "io", "dispatch", "insertion", "interaction", "run", "verification"}
 
 KERNEL_STANDARD_HEADERS = {"cstddef", "cstdint", "cmath", "type_traits", "utility"}
 VECTOR_LAYER = "kernels/simd_ops.hpp"
