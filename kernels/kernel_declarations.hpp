@@ -19,6 +19,16 @@ void lj_list_force_mixed(const LjListInput& in, double* gradient) noexcept;
 void lj_list_gradient_mixed(const LjListInput& in, double* gradient, LjOutput& out) noexcept;
 std::size_t points_within(const PointGrid& grid, const NeighbourQuery& query, std::uint32_t* out, std::size_t capacity) noexcept;
 
+void state_densities(const StateDensityInput& in, double* densities) noexcept;
+double state_lj_energy(const StateLjInput& in) noexcept;
+void state_lj_gradient(const StateLjInput& in, double* gradient, double* slopes, LjOutput& out) noexcept;
+void state_lj_stress(const StateLjInput& in, double* gradient, double* slopes, LjOutput& out) noexcept;
+double state_table_energy(const StateTableInput& in) noexcept;
+void state_table_gradient(const StateTableInput& in, double* gradient, double* slopes, LjOutput& out) noexcept;
+void state_table_stress(const StateTableInput& in, double* gradient, double* slopes, LjOutput& out) noexcept;
+void state_density_gradient(const StateDensityForceInput& in, double* gradient, LjOutput& out) noexcept;
+void state_density_stress(const StateDensityForceInput& in, double* gradient, LjOutput& out) noexcept;
+
 bool sphere_any_overlap(const SphereInput& in) noexcept;
 std::size_t sphere_pairs_within(const SphereInput& in, double reach, SpherePair* out, std::size_t capacity) noexcept;
 double sphere_smallest_gap(const SphereInput& in) noexcept;

@@ -334,6 +334,44 @@ inline void gather_points(const double* base, const std::uint32_t* place, Vector
 #endif
 }
 
+// All four numbers of such records.
+inline void gather_quads(const double* base, const std::uint32_t* place, Vector& x, Vector& y, Vector& z, Vector& w) noexcept {
+#if defined(LANESCAPE_ISA_AVX512)
+  const auto two = [&](int k) {
+    return _mm512_mask_broadcast_f64x4(_mm512_castpd256_pd512(_mm256_load_pd(base + place[k])), 0xf0,
+                                       _mm256_load_pd(base + place[k + 2]));
+  };
+  const __m512d a = two(0), b = two(1), c = two(4), d = two(5);
+  const __m512d xz_ab = _mm512_unpacklo_pd(a, b), xz_cd = _mm512_unpacklo_pd(c, d);
+  const __m512d yw_ab = _mm512_unpackhi_pd(a, b), yw_cd = _mm512_unpackhi_pd(c, d);
+  x = _mm512_shuffle_f64x2(xz_ab, xz_cd, 0x88);
+  y = _mm512_shuffle_f64x2(yw_ab, yw_cd, 0x88);
+  z = _mm512_shuffle_f64x2(xz_ab, xz_cd, 0xdd);
+  w = _mm512_shuffle_f64x2(yw_ab, yw_cd, 0xdd);
+#elif defined(LANESCAPE_ISA_AVX2)
+  const auto one = [&](int k) { return _mm256_load_pd(base + place[k]); };
+  const __m256d a = one(0), b = one(1), c = one(2), d = one(3);
+  const __m256d xz_ab = _mm256_unpacklo_pd(a, b), xz_cd = _mm256_unpacklo_pd(c, d);
+  const __m256d yw_ab = _mm256_unpackhi_pd(a, b), yw_cd = _mm256_unpackhi_pd(c, d);
+  x = _mm256_permute2f128_pd(xz_ab, xz_cd, 0x20);
+  y = _mm256_permute2f128_pd(yw_ab, yw_cd, 0x20);
+  z = _mm256_permute2f128_pd(xz_ab, xz_cd, 0x31);
+  w = _mm256_permute2f128_pd(yw_ab, yw_cd, 0x31);
+#elif defined(LANESCAPE_ISA_SSE2)
+  const double *first = base + place[0], *second = base + place[1];
+  const __m128d a = _mm_load_pd(first), b = _mm_load_pd(second), c = _mm_load_pd(first + 2), d = _mm_load_pd(second + 2);
+  x = _mm_unpacklo_pd(a, b);
+  y = _mm_unpackhi_pd(a, b);
+  z = _mm_unpacklo_pd(c, d);
+  w = _mm_unpackhi_pd(c, d);
+#else
+  x = lanewise([&](std::size_t k) { return base[place[k]]; });
+  y = lanewise([&](std::size_t k) { return base[place[k] + 1]; });
+  z = lanewise([&](std::size_t k) { return base[place[k] + 2]; });
+  w = lanewise([&](std::size_t k) { return base[place[k] + 3]; });
+#endif
+}
+
 // Each lane without its fraction. |v| < 2^31.
 inline void store_truncated(std::int32_t* out, Vector v) noexcept {
 #if defined(LANESCAPE_ISA_AVX512)
