@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "interaction/site_states.hpp"
+
+// What parts that run kernels over a list share.
+namespace lanescape {
+
+// Adds points of a block's rows to the gradient.
+void add_rows(const Sites& sites, const kernels::NeighbourRows& rows, const double* records, AlignedArray& gradient);
+// Adds the sums of blocks, one after the other whoever made them.
+void add_blocks(const std::vector<kernels::LjOutput>& blocks, StateSums& sums);
+
+}  // namespace lanescape
