@@ -31,6 +31,7 @@ struct KernelTable {
   std::size_t (*points_within)(const PointGrid&, const NeighbourQuery&, std::uint32_t* out, std::size_t capacity) noexcept;
 
   // Interactions that follow the states of sites, over neighbour lists, for rows [0, row_count). Densities sum c w of each row.
+  // `near` and its lengths may stand in for those of the list from then on.
   void (*state_densities)(const StateDensityInput&, double* densities) noexcept;
   // At fixed probabilities: `slopes` gets dU/dp, row_count x states (each pair counts in full), `gradient` a point per row, energy
   // and virial are these rows' share. The three agree to the bit in what they have in common; with one state they and lj_list_* do.

@@ -303,7 +303,8 @@ inline void gather_records(const double* base, const std::int32_t* index, Vector
 }
 
 // x, y and z of `lanes` points (records of four doubles, 32-byte aligned); that of lane k is place[k] doubles from `base`.
-inline void gather_points(const double* base, const std::uint32_t* place, Vector& x, Vector& y, Vector& z) noexcept {
+template <class Places>
+inline void gather_points(const double* base, const Places& place, Vector& x, Vector& y, Vector& z) noexcept {
 #if defined(LANESCAPE_ISA_AVX512)
   const auto two = [&](int k) {
     return _mm512_mask_broadcast_f64x4(_mm512_castpd256_pd512(_mm256_load_pd(base + place[k])), 0xf0,
@@ -335,7 +336,8 @@ inline void gather_points(const double* base, const std::uint32_t* place, Vector
 }
 
 // All four numbers of such records.
-inline void gather_quads(const double* base, const std::uint32_t* place, Vector& x, Vector& y, Vector& z, Vector& w) noexcept {
+template <class Places>
+inline void gather_quads(const double* base, const Places& place, Vector& x, Vector& y, Vector& z, Vector& w) noexcept {
 #if defined(LANESCAPE_ISA_AVX512)
   const auto two = [&](int k) {
     return _mm512_mask_broadcast_f64x4(_mm512_castpd256_pd512(_mm256_load_pd(base + place[k])), 0xf0,
@@ -369,6 +371,59 @@ inline void gather_quads(const double* base, const std::uint32_t* place, Vector&
   y = lanewise([&](std::size_t k) { return base[place[k] + 1]; });
   z = lanewise([&](std::size_t k) { return base[place[k] + 2]; });
   w = lanewise([&](std::size_t k) { return base[place[k] + 3]; });
+#endif
+}
+
+// Whole numbers that lanes are rounded to, one by one in memory: what takes them out of a vector register costs more.
+struct WholeLanes {
+  alignas(64) double shifted[lanes];
+  std::uint32_t of(std::size_t lane) const noexcept {
+    std::uint64_t bits;
+    __builtin_memcpy(&bits, shifted + lane, sizeof bits);
+    return static_cast<std::uint32_t>(bits);
+  }
+};
+
+// The whole number nearest to each lane, ties to even. 0 <= v < 2^31.
+inline Vector store_nearest_whole(WholeLanes& out, Vector v) noexcept {
+  // 1.5 x 2^52 leaves no bits for a fraction: the lowest bits of the sum are the number.
+  const Vector shifter = broadcast(6755399441055744.0), sum = v + shifter;
+  store(out.shifted, sum);
+  asm volatile("" : "+m"(out.shifted));
+  return sum - shifter;
+}
+
+// The chosen lanes one after the other from p on; up to a whole vector is overwritten. Their number.
+inline std::size_t store_chosen(double* p, unsigned mask, Vector v) noexcept {
+#if defined(LANESCAPE_ISA_AVX512)
+  _mm512_storeu_pd(p, _mm512_maskz_compress_pd(static_cast<__mmask8>(mask), v));
+  return static_cast<std::size_t>(__builtin_popcount(mask));
+#else
+  alignas(64) double lane[lanes];
+  store(lane, v);
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < lanes; ++k) {
+    p[count] = lane[k];
+    count += mask >> k & 1U;
+  }
+  return count;
+#endif
+}
+
+// The same of numbers in memory, which may be those that are overwritten.
+inline std::size_t store_chosen(std::uint32_t* p, unsigned mask, const std::uint32_t* from) noexcept {
+#if defined(LANESCAPE_ISA_AVX512)
+  const __m256i chosen =
+      _mm256_maskz_compress_epi32(static_cast<__mmask8>(mask), _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), chosen);
+  return static_cast<std::size_t>(__builtin_popcount(mask));
+#else
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < lanes; ++k) {
+    p[count] = from[k];
+    count += mask >> k & 1U;
+  }
+  return count;
 #endif
 }
 

@@ -12,8 +12,6 @@ namespace {
 
 enum class Output { energy, gradient, stress };
 
-constexpr std::size_t list_prefetch = 192;  // as in lj_list.cpp
-
 // Of one row with the neighbours of one species: 12 c12 and 6 c6 for each state of a neighbour, averaged over the row's.
 struct Averaged {
   Vector twelve_c12[4], six_c6[4];
@@ -53,7 +51,7 @@ LANESCAPE_INLINE Vector average(const Vector* of_state, const NeighbourStates& s
 template <Output output, StatesAtOnce n, bool masked>
 LANESCAPE_INLINE void pair_vector(const double* points, const double* quads, const std::uint32_t* places, const Displacement& row,
                                   Vector cutoff_squared, const Averaged& averaged, Mask valid, StateSums& sums, Displacement& g,
-                                  Totals& totals) {
+                                  StateTotals& totals) {
   prefetch(places + list_prefetch);
   const PairVector pair = pairs_of<masked>(points, places, row, cutoff_squared, valid);
   NeighbourStates states{{pair.fourth, pair.fourth, pair.fourth, pair.fourth}};
@@ -67,6 +65,12 @@ LANESCAPE_INLINE void pair_vector(const double* points, const double* quads, con
     g = {multiply_add(w, pair.d.x, g.x), multiply_add(w, pair.d.y, g.y), multiply_add(w, pair.d.z, g.z)};
     if constexpr (output == Output::stress) add_tensor(totals, pair.d, w);
   }
+}
+
+// A number that the compiler knows where it is one or two.
+template <StatesAtOnce n>
+constexpr std::size_t known(std::size_t states) {
+  return n == StatesAtOnce::four ? states : count_of(n);
 }
 
 // Of the states [first, first + n) of a neighbour.
@@ -86,31 +90,42 @@ LANESCAPE_INLINE Averaged average_over_row(const StateLjPair* pairs, const doubl
   return averaged;
 }
 
-// What the sums of one species' neighbours say: energy, virial and, where wanted, dU/dp of each of the row's states.
+// What the sums of one species' neighbours say: energy, virial and, where wanted, dU/dp of each of the row's states. With one state
+// as in lj_list.cpp, to the bit; with more the lanes are added up first, which leaves less to do.
+LANESCAPE_INLINE void add_one_state(const StateLjPair& u, double p, const Averaged& averaged, const PowerSums& s, double* slopes,
+                                    StateTotals& totals) {
+  totals.virial += multiply_add(averaged.twelve_c12[0], s.twelfth, broadcast(0.0) - averaged.six_c6[0] * s.sixth);
+  const Vector slope = multiply_add(broadcast(u.c12), s.twelfth,
+                                    broadcast(0.0) - multiply_add(broadcast(u.c6), s.sixth, broadcast(u.shift) * s.count));
+  totals.energy += broadcast(p) * slope;
+  if (slopes) slopes[0] += sum_lanes(slope);
+}
+
 template <StatesAtOnce n>
 LANESCAPE_INLINE void add_segment(const StateLjPair* pairs, const double* p, std::size_t states, std::size_t first,
-                                  const Averaged& averaged, const StateSums& sums, double* slopes, Totals& totals) {
-  for (std::size_t b = 0; b < count_of(n); ++b)
-    totals.virial +=
-        multiply_add(averaged.twelve_c12[b], sums.of[b].twelfth, broadcast(0.0) - averaged.six_c6[b] * sums.of[b].sixth);
+                                  const StateSums& sums, double* slopes, double& energy, double& virial) {
+  alignas(array_alignment) double s[4][point_width];  // r^-6, r^-12, 1
+  for (std::size_t b = 0; b < count_of(n); ++b) store_point(s[b], sums.of[b].sixth, sums.of[b].twelfth, sums.of[b].count);
   for (std::size_t a = 0; a < states; ++a) {
-    Vector slope = broadcast(0.0);
+    double sixth = 0.0, twelfth = 0.0, shift = 0.0;
     for (std::size_t b = 0; b < count_of(n) && first + b < states; ++b) {
       const StateLjPair& u = pairs[a * states + first + b];
-      const PowerSums& s = sums.of[b];
-      slope += multiply_add(broadcast(u.c12), s.twelfth,
-                            broadcast(0.0) - multiply_add(broadcast(u.c6), s.sixth, broadcast(u.shift) * s.count));
+      sixth += u.c6 * s[b][0];
+      twelfth += u.c12 * s[b][1];
+      shift += u.shift * s[b][2];
     }
-    totals.energy += broadcast(p[a]) * slope;
-    if (slopes) slopes[a] += sum_lanes(slope);
+    const double slope = twelfth - (sixth + shift);
+    energy += p[a] * slope;
+    virial += p[a] * (12.0 * twelfth - 6.0 * sixth);
+    if (slopes) slopes[a] += slope;
   }
 }
 
 template <Output output, StatesAtOnce n>
 LANESCAPE_INLINE void one_segment(const StateLjInput& in, std::size_t species, const std::uint32_t* places, std::size_t count,
                                   const Displacement& row, const double* p, std::size_t group, Displacement& g, double* slopes,
-                                  Totals& totals) {
-  const std::size_t states = in.probabilities.states, first = group * count_of(n);
+                                  StateTotals& totals) {
+  const std::size_t states = known<n>(in.probabilities.states), first = n == StatesAtOnce::four ? group * count_of(n) : 0;
   const StateLjPair* pairs = in.pairs + species * states * states;
   const double *points = in.list.points, *quads = in.probabilities.points + group * in.probabilities.group_stride;
   const Vector cutoff_squared = broadcast(in.cutoffs_squared[species]);
@@ -121,25 +136,28 @@ LANESCAPE_INLINE void one_segment(const StateLjInput& in, std::size_t species, c
     of_pairs.six_c6[0] = averaged.six_c6[0] - averaged.six_c6[1];
   }
   StateSums sums;
-  for_each_vector(
-      count,
-      [&](std::size_t j) {
-        pair_vector<output, n, false>(points, quads, places + j, row, cutoff_squared, of_pairs, {}, sums, g, totals);
-      },
-      [&](std::size_t j, Mask valid) {
-        pair_vector<output, n, true>(points, quads, places + j, row, cutoff_squared, of_pairs, valid, sums, g, totals);
-      });
+  Displacement pulled = g;
+  std::size_t j = 0;
+  for (; j + lanes <= count; j += lanes)
+    pair_vector<output, n, false>(points, quads, places + j, row, cutoff_squared, of_pairs, {}, sums, pulled, totals);
+  if (j < count)
+    pair_vector<output, n, true>(points, quads, places + j, row, cutoff_squared, of_pairs,
+                                 lanes_below(static_cast<std::ptrdiff_t>(count - j)), sums, pulled, totals);
+  g = pulled;
   if constexpr (n == StatesAtOnce::two) {
     const PowerSums &one = sums.of[0], all = sums.of[1];
     sums.of[1] = {all.sixth - one.sixth, all.twelfth - one.twelfth, all.count - one.count};
   }
-  add_segment<n>(pairs, p, states, first, averaged, sums, slopes, totals);
+  if constexpr (n == StatesAtOnce::one)
+    add_one_state(pairs[0], p[0], averaged, sums.of[0], slopes, totals);
+  else
+    add_segment<n>(pairs, p, states, first, sums, slopes, totals.rows_energy, totals.rows_virial);
 }
 
 template <Output output, StatesAtOnce n>
-void all_rows(const StateLjInput& in, double* gradient, double* slopes, Totals& totals) {
+void all_rows(const StateLjInput& in, double* gradient, double* slopes, StateTotals& totals) {
   const NeighbourRows& list = in.list;
-  const std::size_t states = in.probabilities.states, groups = (states + count_of(n) - 1) / count_of(n);
+  const std::size_t states = known<n>(in.probabilities.states), groups = (states + count_of(n) - 1) / count_of(n);
   const std::uint32_t* places = list.neighbours;
   const std::uint32_t* length = list.lengths;
   const Vector zero = broadcast(0.0);
@@ -164,7 +182,7 @@ void all_rows(const StateLjInput& in, double* gradient, double* slopes, Totals& 
 
 template <Output output>
 void sum_list(const StateLjInput& in, double* gradient, double* slopes, LjOutput& out) {
-  Totals totals;
+  StateTotals totals;
   switch (in.probabilities.states) {
     case 1:
       all_rows<output, StatesAtOnce::one>(in, gradient, slopes, totals);

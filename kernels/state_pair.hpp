@@ -5,6 +5,8 @@
 // What the kernels of state-probability interactions share.
 namespace lanescape::kernels::LANESCAPE_ISA {
 
+constexpr std::size_t list_prefetch = 192;  // as in lj_list.cpp
+
 // How many states of its neighbours a kernel sums over at once: the probability of one is 1, of two the first comes with the point,
 // of more four come from a record of their own, and again for each four there are.
 enum class StatesAtOnce { one, two, four };
@@ -39,36 +41,30 @@ LANESCAPE_INLINE Vector where(Mask m, Vector v) { return choose(m, v, broadcast(
 
 // Where in a spline an argument lies: places of the intervals' first records, and how far into the interval.
 struct SplinePlace {
-  alignas(array_alignment) std::uint32_t records[lanes];
+  WholeLanes intervals;
   Vector s;
+  std::uint32_t stride;  // from interval to interval, in doubles
+  // Of the first record of a lane's interval.
+  std::uint32_t operator[](std::size_t lane) const { return intervals.of(lane) * stride; }
 };
 
 // `x` in intervals; what is not below their number, or is not a number, is at the end. `width`: records of an interval.
-LANESCAPE_INLINE void find_place(SplinePlace& place, Vector x, Vector intervals, double width) {
+LANESCAPE_INLINE void find_place(SplinePlace& place, Vector x, Vector intervals, std::size_t width) {
   x = choose(less(x, intervals), x, intervals);
   // A knot may be the end of one interval or the start of the next: the spline is the same.
-  const Vector k = nearest_whole(x - broadcast(0.5));
-  place.s = x - k;
-  store_truncated(reinterpret_cast<std::int32_t*>(place.records), k * broadcast(width * point_width));
+  place.s = x - store_nearest_whole(place.intervals, x - broadcast(0.5));
+  place.stride = static_cast<std::uint32_t>(width * point_width);
 }
 
 LANESCAPE_INLINE Vector spline_value(const double* records, const SplinePlace& place) {
   Vector b, c, d, a;
-  gather_quads(records, place.records, b, c, d, a);
+  gather_quads(records, place, b, c, d, a);
   return multiply_add(place.s, multiply_add(place.s, multiply_add(place.s, d, c), b), a);
 }
 
 // With respect to the argument in intervals.
 LANESCAPE_INLINE Vector spline_slope(Vector s, Vector b, Vector c, Vector d) {
   return multiply_add(s, multiply_add(s * broadcast(3.0), d, c + c), b);
-}
-
-// The vectors of neighbours of one species, the last of them not whole.
-template <class Whole, class Rest>
-LANESCAPE_INLINE void for_each_vector(std::size_t count, Whole whole, Rest rest) {
-  std::size_t j = 0;
-  for (; j + lanes <= count; j += lanes) whole(j);
-  if (j < count) rest(j, lanes_below(static_cast<std::ptrdiff_t>(count - j)));
 }
 
 inline std::size_t padded_length(std::size_t count) { return (count + slot_padding - 1) / slot_padding * slot_padding; }
@@ -78,10 +74,15 @@ inline Displacement row_at(const NeighbourRows& list, std::size_t k) {
   return {broadcast(point[0]), broadcast(point[1]), broadcast(point[2])};
 }
 
+// What is summed lane by lane, and what row by row.
+struct StateTotals : Totals {
+  double rows_energy = 0.0, rows_virial = 0.0;
+};
+
 // Every pair was met from both ends.
-inline void put_totals(const Totals& totals, bool with_tensor, LjOutput& out) {
-  out.energy = 0.5 * sum_lanes(totals.energy);
-  out.virial = 0.5 * sum_lanes(totals.virial);
+inline void put_totals(const StateTotals& totals, bool with_tensor, LjOutput& out) {
+  out.energy = 0.5 * (sum_lanes(totals.energy) + totals.rows_energy);
+  out.virial = 0.5 * (sum_lanes(totals.virial) + totals.rows_virial);
   if (with_tensor)
     for (std::size_t k = 0; k < 6; ++k) out.virial_tensor[k] = 0.5 * sum_lanes(totals.tensor[k]);
 }

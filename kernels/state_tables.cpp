@@ -34,20 +34,20 @@ LANESCAPE_INLINE void gather_states(const Sweep& sweep, const std::uint32_t* pla
 
 template <Output output, bool masked>
 LANESCAPE_INLINE void pair_vector(const double* points, const std::uint32_t* places, const Displacement& row, const Sweep& sweep,
-                                  const Table& table, Mask valid, Vector* slopes, Displacement& g, Totals& totals) {
+                                  const Table& table, Mask valid, Vector* slopes, Displacement& g, StateTotals& totals) {
   const PairVector pair = pairs_of<masked>(points, places, row, table.cutoff_squared, valid);
   if (!any(pair.in_range)) return;
   NeighbourStates states;
   gather_states(sweep, places, pair.fourth, states);
   const Vector r = square_root(pair.r2);
   SplinePlace place;
-  find_place(place, (r - table.origin) * table.per_unit, table.intervals, static_cast<double>(sweep.states * sweep.states));
+  find_place(place, (r - table.origin) * table.per_unit, table.intervals, sweep.states * sweep.states);
   Vector force = broadcast(0.0);
   for (std::size_t a = 0; a < sweep.row_states; ++a) {
     const Vector p_a = broadcast(sweep.row_probabilities[a]);
     for (std::size_t b = 0; b < sweep.neighbour_states; ++b) {
       Vector c1, c2, c3, c0;
-      gather_quads(table.records + point_width * (a * sweep.states + b), place.records, c1, c2, c3, c0);
+      gather_quads(table.records + point_width * (a * sweep.states + b), place, c1, c2, c3, c0);
       const Vector s = place.s, p_b = where(pair.in_range, states.p[b]);
       slopes[a] = multiply_add(p_b, multiply_add(s, multiply_add(s, multiply_add(s, c3, c2), c1), c0), slopes[a]);
       if constexpr (output != Output::energy) force = multiply_add(p_a * p_b, spline_slope(s, c1, c2, c3), force);
@@ -63,13 +63,15 @@ LANESCAPE_INLINE void pair_vector(const double* points, const std::uint32_t* pla
 
 template <Output output>
 LANESCAPE_INLINE void one_sweep(const double* points, const std::uint32_t* places, std::size_t count, const Displacement& row,
-                                const Sweep& sweep, const StateTable& u, double* slopes, Displacement& g, Totals& totals) {
+                                const Sweep& sweep, const StateTable& u, double* slopes, Displacement& g, StateTotals& totals) {
   const Table table{u.spline.records + point_width * (sweep.first_row_state * sweep.states + sweep.first_state),
                     broadcast(u.spline.per_unit), broadcast(u.spline.intervals), broadcast(u.origin), broadcast(u.cutoff_squared)};
   Vector sums[4] = {broadcast(0.0), broadcast(0.0), broadcast(0.0), broadcast(0.0)};
-  for_each_vector(
-      count, [&](std::size_t j) { pair_vector<output, false>(points, places + j, row, sweep, table, {}, sums, g, totals); },
-      [&](std::size_t j, Mask valid) { pair_vector<output, true>(points, places + j, row, sweep, table, valid, sums, g, totals); });
+  std::size_t j = 0;
+  for (; j + lanes <= count; j += lanes) pair_vector<output, false>(points, places + j, row, sweep, table, {}, sums, g, totals);
+  if (j < count)
+    pair_vector<output, true>(points, places + j, row, sweep, table, lanes_below(static_cast<std::ptrdiff_t>(count - j)), sums, g,
+                              totals);
   for (std::size_t a = 0; a < sweep.row_states; ++a) {
     totals.energy += broadcast(sweep.row_probabilities[a]) * sums[a];
     if (slopes) slopes[sweep.first_row_state + a] += sum_lanes(sums[a]);
@@ -81,7 +83,7 @@ std::size_t four_at_most(std::size_t n) { return n < 4 ? n : 4; }
 template <Output output>
 LANESCAPE_INLINE void one_segment(const StateTableInput& in, const StateTable& table, const std::uint32_t* places,
                                   std::size_t count, const Displacement& row, const double* p, double* slopes, Displacement& g,
-                                  Totals& totals) {
+                                  StateTotals& totals) {
   const std::size_t states = in.probabilities.states;
   for (std::size_t a = 0; a < states; a += 4)
     for (std::size_t b = 0; b < states; b += 4) {
@@ -103,7 +105,7 @@ void sum_list(const StateTableInput& in, double* gradient, double* slopes, LjOut
   const std::uint32_t* places = list.neighbours;
   const std::uint32_t* length = list.lengths;
   const Vector zero = broadcast(0.0);
-  Totals totals;
+  StateTotals totals;
   for (std::size_t k = 0; k < list.row_count; ++k) {
     const Displacement row = row_at(list, k);
     Displacement g{zero, zero, zero};

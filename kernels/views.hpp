@@ -203,6 +203,10 @@ struct StateDensityInput {
   NeighbourRows list;
   SwitchingSpline switching;  // of the rows' species
   const double* filter;       // c(rows' species, each species)
+  // A list of what is near now is made on the way, for the passes that follow: lists hold a skin that is not.
+  const double* reaches_squared;  // how far each species is near [sigma^2]
+  std::uint32_t* near;            // room for as many as `list` has, padding included
+  std::uint32_t* near_lengths;
 };
 
 struct StateDensityForceInput {

@@ -57,12 +57,16 @@ std::vector<double> LocalDensity::reaches() const {
 
 void LocalDensity::evaluate(Sites& sites, AlignedArray& values) {
   const auto& list = sites.list();
-  sites.for_each_block([&](std::size_t b, const kernels::NeighbourRows& rows) {
-    std::array<double, NeighbourList::block_rows> densities;
+  const auto scratch = [] { return std::array<double, NeighbourList::block_rows>(); };
+  sites.for_each_block(scratch, [&](std::size_t b, const kernels::NeighbourRows& rows, auto& densities) {
     const std::size_t species = list.species_of(b);
-    sites.kernels().state_densities({rows, of(species).view(), filter_.data() + species * species_}, densities.data());
+    const Sites::Near near = sites.near(b);
+    sites.kernels().state_densities(
+        {rows, of(species).view(), filter_.data() + species * species_, near.reaches_squared, near.places, near.lengths},
+        densities.data());
     for (std::size_t k = 0; k < rows.row_count; ++k) values[list.slot_at(rows.rows[k])] = densities[k];
   });
+  sites.use_near();
 }
 
 void LocalDensity::add_gradient(Sites& sites, const AlignedArray& multipliers, StateSums& sums) {
@@ -73,13 +77,13 @@ void LocalDensity::add_gradient(Sites& sites, const AlignedArray& multipliers, S
   const bool stress = sums.wanted == StateSums::Wanted::stress;
   const auto gradient = stress ? sites.kernels().state_density_stress : sites.kernels().state_density_gradient;
   sites.put_values(multipliers);
-  sites.for_each_block([&](std::size_t b, const kernels::NeighbourRows& rows) {
-    alignas(kernels::array_alignment) std::array<double, kernels::point_width * NeighbourList::block_rows> records;
+  const auto scratch = [] { return BlockScratch(0); };
+  sites.for_each_block(scratch, [&](std::size_t b, const kernels::NeighbourRows& rows, BlockScratch& own) {
     const std::size_t species = list.species_of(b), first = species * species_;
-    gradient({rows, switchings[species], switchings.data(), filter_.data() + first, filter_back_.data() + first}, records.data(),
-             blocks[b]);
+    gradient({rows, switchings[species], switchings.data(), filter_.data() + first, filter_back_.data() + first},
+             own.records.data(), blocks[b]);
     blocks[b].energy = 0.0;
-    add_rows(sites, rows, records.data(), sums.gradient);
+    add_rows(sites, rows, own.records.data(), sums.gradient);
   });
   add_blocks(blocks, sums);
 }
@@ -95,7 +99,7 @@ void TanhCascade::evaluate(std::size_t species, double value, std::span<StatePro
   for (const Step& step : steps_[species]) {
     // ln above - ln below = 2x: the greater of the two is never the logarithm of a small number, and from it follows the other.
     const double x = (value - step.threshold) / step.width, small = std::exp(-2.0 * std::abs(x));
-    const double major = 1.0 / (1.0 + small), minor = small * major, log_major = -std::log1p(small);
+    const double major = 1.0 / (1.0 + small), minor = small * major, log_major = std::log(major);
     const double above = x > 0.0 ? major : minor, below = x > 0.0 ? minor : major;
     const double log_above = x > 0.0 ? log_major : 2.0 * x + log_major, slope = 2.0 * major * minor / step.width;
     states[a++] = {rest.p * above, rest.slope * above + rest.p * slope, rest.logarithm + log_above};

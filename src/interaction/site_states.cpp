@@ -11,11 +11,24 @@ Sites::Sites(const Box& box, const ParticleLayout& layout, std::vector<double> r
       table_(&table),
       list_(box, layout, reaches, options.skin, table, useful_threads(layout.size(), options.threads),
             NeighbourList::Coordinates::floating, options.members),
-      states_{states, AlignedArray(layout.slots() * states, 0.0)} {}
+      reaches_squared_(reaches),
+      states_{states, AlignedArray(layout.slots() * states, 0.0)} {
+  for (double& reach : reaches_squared_) reach *= reach;
+}
 
 void Sites::move_to(const AlignedArray& positions) {
   positions_ = positions;
   list_.update(positions);
+  near_known_ = false;
+  near_.resize(static_cast<std::size_t>(list_.parts()));
+  for (std::size_t k = 0; k < near_.size(); ++k) near_[k].resize(list_.array_size(k));
+  near_lengths_.resize(list_.block_count() * NeighbourList::block_rows * species());
+}
+
+Sites::Near Sites::near(std::size_t block) {
+  return {near_[list_.array_of(block)].data() + list_.first_neighbour(block),
+          near_lengths_.data() + NeighbourList::block_rows * species() * block,
+          reaches_squared_.data() + list_.species_of(block) * species()};
 }
 
 // The fourth number of a point is the probability of the first of two states; more come in groups of four.
@@ -37,7 +50,7 @@ void Sites::put_states() {
 kernels::StateProbabilities Sites::states_of(const kernels::NeighbourRows& rows, double* row_states) const {
   const std::size_t states = states_.states;
   for (std::size_t k = 0; k < rows.row_count; ++k)
-    std::copy_n(states_.p.data() + list_.slot_at(rows.rows[k]) * states, states, row_states + k * states);
+    for (std::size_t a = 0; a < states; ++a) row_states[k * states + a] = states_.p[list_.slot_at(rows.rows[k]) * states + a];
   return {states, row_states, states < 3 ? rows.points : groups_.data(), states < 3 ? 0 : kernels::point_width * list_.points()};
 }
 

@@ -58,12 +58,20 @@ class Sites {
   template <class Visit>
   void for_each_pair(Visit visit) const;
 
-  // For kernels. body(block, its rows) for every block, shared by threads.
-  template <class Body>
-  void for_each_block(Body body) const;
+  // For kernels. body(block, its rows, scratch) for every block, shared by threads, with a scratch that each makes once. Rows have
+  // the list's neighbours, or those that are near now, where a part has said so since move_to().
+  template <class MakeScratch, class Body>
+  void for_each_block(MakeScratch make_scratch, Body body) const;
   // Lets points carry the number of each site, or what kernels need of the probabilities.
   void put_values(const AlignedArray& per_slot) { list_.set_values(per_slot, 1); }
   void put_states();
+  // Room for who is near in a block, for kernels::KernelTable::state_densities; who takes it for one block takes it for all.
+  struct Near {
+    std::uint32_t *places, *lengths;
+    const double* reaches_squared;
+  };
+  Near near(std::size_t block);
+  void use_near() { near_known_ = true; }
   // `row_states`: room for block_rows x states, overwritten.
   kernels::StateProbabilities states_of(const kernels::NeighbourRows& rows, double* row_states) const;
 
@@ -75,6 +83,10 @@ class Sites {
   const kernels::KernelTable* table_;
   NeighbourList list_;
   AlignedArray positions_;
+  std::vector<double> reaches_squared_;
+  bool near_known_ = false;
+  std::vector<AlignedVector<std::uint32_t>> near_;  // as the list has its neighbours
+  AlignedVector<std::uint32_t> near_lengths_;       // of all blocks
   SiteStates states_;
   AlignedArray groups_;  // from three states on, of all points: four states, and again four
 };
@@ -147,10 +159,18 @@ void Sites::for_each_pair(Visit visit) const {
   }
 }
 
-template <class Body>
-void Sites::for_each_block(Body body) const {
+template <class MakeScratch, class Body>
+void Sites::for_each_block(MakeScratch make_scratch, Body body) const {
   for_each_part(list_.parts(), [&](int part) {
-    for (std::size_t b = list_.first_block(part); b < list_.first_block(part + 1); ++b) body(b, list_.rows_of(b));
+    auto scratch = make_scratch();
+    for (std::size_t b = list_.first_block(part); b < list_.first_block(part + 1); ++b) {
+      kernels::NeighbourRows rows = list_.rows_of(b);
+      if (near_known_) {
+        rows.neighbours = near_[list_.array_of(b)].data() + list_.first_neighbour(b);
+        rows.lengths = near_lengths_.data() + NeighbourList::block_rows * rows.species_count * b;
+      }
+      body(b, rows, scratch);
+    }
   });
 }
 

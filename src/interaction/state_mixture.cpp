@@ -15,6 +15,8 @@ namespace {
 
 constexpr double allowed_ratio = 0.3;
 
+int no_scratch() { return 0; }
+
 // What every part needs to see, of both sites of a pair.
 std::vector<double> joint_reaches(const StateMixtureParts& parts, std::size_t species) {
   std::vector<double> joint(species * species, 0.0);
@@ -125,7 +127,7 @@ double StateMixture::find_states() {
   const auto& list = sites_.list();
   const std::size_t states = sites_.states();
   std::vector<double> energies(list.block_count(), 0.0);
-  sites_.for_each_block([&](std::size_t b, const kernels::NeighbourRows& rows) {
+  sites_.for_each_block(no_scratch, [&](std::size_t b, const kernels::NeighbourRows& rows, int) {
     const std::size_t species = list.species_of(b);
     for (std::size_t k = 0; k < rows.row_count; ++k) {
       const std::size_t slot = list.slot_at(rows.rows[k]);
@@ -148,7 +150,7 @@ double StateMixture::find_states() {
 void StateMixture::find_multipliers() {
   const auto& list = sites_.list();
   const std::size_t states = sites_.states();
-  sites_.for_each_block([&](std::size_t b, const kernels::NeighbourRows& rows) {
+  sites_.for_each_block(no_scratch, [&](std::size_t b, const kernels::NeighbourRows& rows, int) {
     for (std::size_t k = 0; k < rows.row_count; ++k) {
       const std::size_t slot = list.slot_at(rows.rows[k]);
       double multiplier = 0.0;

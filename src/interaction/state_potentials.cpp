@@ -14,19 +14,18 @@ void add_kernel(Sites& sites, StateSums& sums, MakeInput make_input, Energy ener
   const auto& list = sites.list();
   const std::size_t states = sites.states();
   std::vector<kernels::LjOutput> blocks(list.block_count());
-  sites.for_each_block([&](std::size_t b, const kernels::NeighbourRows& rows) {
-    alignas(kernels::array_alignment) std::array<double, kernels::point_width * NeighbourList::block_rows> records;
-    AlignedArray row_states(NeighbourList::block_rows * states), slopes(NeighbourList::block_rows * states);
-    const auto input = make_input(list.species_of(b), rows, sites.states_of(rows, row_states.data()));
+  const auto scratch = [states] { return BlockScratch(states); };
+  sites.for_each_block(scratch, [&](std::size_t b, const kernels::NeighbourRows& rows, BlockScratch& own) {
+    const auto input = make_input(list.species_of(b), rows, sites.states_of(rows, own.row_states.data()));
     if (sums.wanted == StateSums::Wanted::energy) {
       blocks[b].energy = energy(input);
       blocks[b].virial = 0.0;
       return;
     }
-    gradient(input, records.data(), slopes.data(), blocks[b]);
-    add_rows(sites, rows, records.data(), sums.gradient);
+    gradient(input, own.records.data(), own.slopes.data(), blocks[b]);
+    add_rows(sites, rows, own.records.data(), sums.gradient);
     for (std::size_t k = 0; k < rows.row_count; ++k)
-      for (std::size_t a = 0; a < states; ++a) sums.slopes[list.slot_at(rows.rows[k]) * states + a] += slopes[k * states + a];
+      for (std::size_t a = 0; a < states; ++a) sums.slopes[list.slot_at(rows.rows[k]) * states + a] += own.slopes[k * states + a];
   });
   add_blocks(blocks, sums);
 }

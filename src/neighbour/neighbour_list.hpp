@@ -43,6 +43,10 @@ class NeighbourList {
   std::size_t block_count() const { return blocks_.size(); }
   std::size_t species_of(std::size_t block) const { return blocks_[block].species; }
   kernels::NeighbourRows rows_of(std::size_t block) const;
+  // Where a block's neighbours are: which of so many arrays, one for each part, and from where on. For arrays of the same form.
+  std::size_t array_of(std::size_t block) const { return blocks_[block].part; }
+  std::size_t first_neighbour(std::size_t block) const { return blocks_[block].first_neighbour; }
+  std::size_t array_size(std::size_t array) const { return neighbours_[array].size(); }
   // Of the points as integers, 0 if they are not given as such [sigma].
   double fixed_unit() const { return points_.fixed_unit(); }
   // The most rows a block has.
