@@ -110,6 +110,11 @@ void check_separations(const Configuration& configuration, const StateMixtureMod
                                 closest.i, closest.j, std::sqrt(closest.ratio_squared), allowed_ratio));
 }
 
+void check_soft_separations(const Configuration& configuration, const Model& model) {
+  if (const auto* lennard_jones = std::get_if<LennardJonesModel>(&model)) check_separations(configuration, *lennard_jones);
+  if (const auto* states = std::get_if<StateMixtureModel>(&model)) check_separations(configuration, *states);
+}
+
 StateMixture::StateMixture(StateMixtureParts parts, const Box& box, const ParticleLayout& layout, const kernels::KernelTable& table,
                            const Options& options)
     : parts_(std::move(parts)),

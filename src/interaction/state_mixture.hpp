@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "configuration/state_mixture_model.hpp"
+#include "configuration/model.hpp"
 #include "interaction/lennard_jones.hpp"
 #include "interaction/site_states.hpp"
 
@@ -32,6 +32,9 @@ void check_cutoff(const StateMixtureModel& model, const Box& box);
 // Throws Error(bad_input) naming the closest pair if any two particles are nearer than 0.3 of StateMixtureModel::size_of(), or the
 // coordinate that is not finite. O(N).
 void check_separations(const Configuration& configuration, const StateMixtureModel& model);
+
+// The same for either kind of soft model; hard spheres are not looked at.
+void check_soft_separations(const Configuration& configuration, const Model& model);
 
 // Energy, gradient and virial of sites whose states follow their surroundings, in passes over pairs that are never nested ([P]):
 // order parameters; energy, forces at fixed p and dU/dp; forces by way of the order parameters. Coordinates are in the layout's
