@@ -34,6 +34,7 @@ inline constexpr std::size_t lanes = Vector::size;
 
 inline Vector load(const double* p) noexcept { return Vector::load_aligned(p); }
 inline void store(double* p, Vector v) noexcept { v.store_aligned(p); }
+inline void store_anywhere(double* p, Vector v) noexcept { v.store_unaligned(p); }
 inline Vector broadcast(double s) noexcept { return Vector(s); }
 inline Vector absolute(Vector v) noexcept { return xsimd::abs(v); }
 inline Vector maximum(Vector a, Vector b) noexcept { return xsimd::max(a, b); }
@@ -79,6 +80,7 @@ inline Vector load(const double* p) noexcept {
 inline void store(double* p, Vector v) noexcept {
   for (std::size_t k = 0; k < lanes; ++k) p[k] = v.lane[k];
 }
+inline void store_anywhere(double* p, Vector v) noexcept { store(p, v); }
 inline Vector broadcast(double s) noexcept {
   return lanewise([&](std::size_t) { return s; });
 }
@@ -193,6 +195,7 @@ inline Vector count_up(Vector sum, Mask m) noexcept {
 }
 
 inline void prefetch(const void* p) noexcept { __builtin_prefetch(p); }
+inline void prefetch_for_write(void* p) noexcept { __builtin_prefetch(p, 1); }
 
 // Bit k of the result is lane k of the mask.
 inline unsigned bits(Mask m) noexcept {

@@ -19,65 +19,76 @@ Switching broadcast_switching(const SwitchingSpline& w) {
   return {w.spline.records, broadcast(w.spline.per_unit), broadcast(w.spline.intervals), broadcast(w.cutoff_squared)};
 }
 
+// Slopes of large systems come from memory when they are written to; it is asked for them so far ahead (worth 5 % of all passes).
+constexpr std::size_t write_ahead = 128;
+
 // How many neighbours are looked at before what is in range of them is counted.
 constexpr std::size_t chunk = 128;
 
-// The first part of a pass: squared separations of what is in range of the switching function, packed, and places of what is within
-// reach of anything.
+// The first part of a pass: squared separations of what is within reach of anything, packed.
 struct Packed {
   alignas(array_alignment) double r2[chunk + lanes];
-  std::size_t in_range = 0, in_reach = 0;
+  std::size_t count = 0;
 };
 
 template <bool masked>
-LANESCAPE_INLINE void pack_vector(const double* points, const std::uint32_t* places, const Displacement& row, Vector cutoff_squared,
-                                  Vector reach_squared, Mask valid, std::uint32_t* near, Packed& packed) {
+LANESCAPE_INLINE void pack_vector(const double* points, const std::uint32_t* places, const Displacement& row, Vector reach_squared,
+                                  Mask valid, std::uint32_t* near, Packed& packed) {
   prefetch(places + list_prefetch);
   Displacement d;
   gather_points(points, places, d.x, d.y, d.z);
   const Vector r2 = squared_length({d.x - row.x, d.y - row.y, d.z - row.z});
-  Mask in_range = less(r2, cutoff_squared), in_reach = less(r2, reach_squared);
-  if constexpr (masked) {
-    in_range = both(in_range, valid);
-    in_reach = both(in_reach, valid);
-  }
-  packed.in_range += store_chosen(packed.r2 + packed.in_range, bits(in_range), r2);
-  packed.in_reach += store_chosen(near + packed.in_reach, bits(in_reach), places);
+  Mask in_reach = less(r2, reach_squared);
+  if constexpr (masked) in_reach = both(in_reach, valid);
+  const unsigned chosen = bits(in_reach);
+  store_chosen(packed.r2 + packed.count, chosen, r2);
+  packed.count += store_chosen(near + packed.count, chosen, places);
 }
 
-LANESCAPE_INLINE Vector value_at(const Switching& w, Vector r2) {
+// The density of a vector of neighbours; w'(r)/r of each goes to `slopes`.
+LANESCAPE_INLINE Vector density_of(const Switching& w, Vector r2, Mask valid, double* slopes) {
+  const Mask in_range = both(less(r2, w.cutoff_squared), valid);
   SplinePlace place;
   find_place(place, r2 * w.per_unit, w.intervals, 1);
-  return spline_value(w.records, place);
+  Vector b, c, d, a;
+  gather_quads(w.records, place, b, c, d, a);
+  prefetch_for_write(slopes + write_ahead);
+  // 2 dw/d(r^2) = w'(r)/r.
+  store_anywhere(slopes, where(in_range, spline_slope(place.s, b, c, d) * (w.per_unit + w.per_unit)));
+  return where(in_range, multiply_add(place.s, multiply_add(place.s, multiply_add(place.s, d, c), b), a));
 }
 
-LANESCAPE_INLINE Vector sum_of_packed(const Switching& w, const Packed& packed) {
+LANESCAPE_INLINE Vector sum_of_packed(const Switching& w, const Packed& packed, double* slopes) {
   Vector sum = broadcast(0.0);
-  std::size_t j = 0;
-  for (; j + lanes <= packed.in_range; j += lanes) sum += value_at(w, load(packed.r2 + j));
-  const Mask valid = lanes_below(static_cast<std::ptrdiff_t>(packed.in_range - j));
-  if (j < packed.in_range) sum += where(valid, value_at(w, where(valid, load(packed.r2 + j))));
+  for (std::size_t j = 0; j < packed.count; j += lanes) {
+    const Mask valid = lanes_below(static_cast<std::ptrdiff_t>(packed.count - j));
+    sum += density_of(w, where(valid, load(packed.r2 + j)), valid, slopes + j);
+  }
   return sum;
 }
 
-// The density that `count` neighbours make; their places within reach go to `near`, and how many.
+// What a segment's neighbours that are near go to.
+struct Near {
+  std::uint32_t* places;
+  double* slopes;
+  std::size_t count = 0;
+};
+
+// The density that `count` neighbours make.
 LANESCAPE_INLINE double one_segment(const double* points, const std::uint32_t* places, std::size_t count, const Displacement& row,
-                                    const Switching& w, Vector cutoff_squared, Vector reach_squared, std::uint32_t* near,
-                                    std::size_t& in_reach) {
+                                    const Switching& w, Vector reach_squared, Near& near) {
   Vector sum = broadcast(0.0);
-  in_reach = 0;
   for (std::size_t first = 0; first < count; first += chunk) {
     const std::size_t here = count - first < chunk ? count - first : chunk;
     const std::uint32_t* from = places + first;
-    std::uint32_t* to = near + in_reach;
+    std::uint32_t* to = near.places + near.count;
     Packed packed;
     std::size_t j = 0;
-    for (; j + lanes <= here; j += lanes) pack_vector<false>(points, from + j, row, cutoff_squared, reach_squared, {}, to, packed);
+    for (; j + lanes <= here; j += lanes) pack_vector<false>(points, from + j, row, reach_squared, {}, to, packed);
     if (j < here)
-      pack_vector<true>(points, from + j, row, cutoff_squared, reach_squared, lanes_below(static_cast<std::ptrdiff_t>(here - j)),
-                        to, packed);
-    in_reach += packed.in_reach;
-    sum += sum_of_packed(w, packed);
+      pack_vector<true>(points, from + j, row, reach_squared, lanes_below(static_cast<std::ptrdiff_t>(here - j)), to, packed);
+    sum += sum_of_packed(w, packed, near.slopes + near.count);
+    near.count += packed.count;
   }
   return sum_lanes(sum);
 }
@@ -97,61 +108,38 @@ struct Multipliers {
   Vector back;  // c_ji
 };
 
-// The first part of a pass: separations in columns. What follows from them is a chain so long that it keeps the processor waiting
-// where it comes right after each fetch.
-struct Separations {
-  Vector x[chunk / lanes], y[chunk / lanes], z[chunk / lanes], r2[chunk / lanes], fourth[chunk / lanes];
-};
-
-LANESCAPE_INLINE void fetch(const double* points, const std::uint32_t* places, std::size_t vectors, const Displacement& row,
-                            Separations& separations) {
-  for (std::size_t k = 0; k < vectors; ++k) {
-    prefetch(places + lanes * k + list_prefetch);
-    Displacement d;
-    gather_quads(points, places + lanes * k, d.x, d.y, d.z, separations.fourth[k]);
-    separations.x[k] = d.x = d.x - row.x;
-    separations.y[k] = d.y = d.y - row.y;
-    separations.z[k] = d.z = d.z - row.z;
-    separations.r2[k] = squared_length(d);
-  }
-}
-
-// -u'/r of a vector of pairs, had they an energy.
-template <bool one_switching>
-LANESCAPE_INLINE Vector pull_of(Vector r2, Vector fourth, const Switching& mine, const Switching& theirs,
-                                const Multipliers& multipliers, Mask valid) {
-  const Mask in_range = both(less(r2, mine.cutoff_squared), valid);
-  if constexpr (one_switching)
-    return broadcast(0.0) - multiply_add(fourth, multipliers.back, multipliers.own) * slope_over_r(mine, r2, in_range);
-  const Mask in_theirs = both(less(r2, theirs.cutoff_squared), valid);
-  return broadcast(0.0) - multiply_add(fourth * multipliers.back, slope_over_r(theirs, r2, in_theirs),
-                                       multipliers.own * slope_over_r(mine, r2, in_range));
-}
-
 // What one row gets. Copied to registers for a loop and back after it.
 struct RowSums {
   Displacement g;
   Vector virial;
 };
 
+// Both ends count by one switching function, whose slopes are there, or the other end counts by another.
 template <bool with_tensor, bool one_switching>
-LANESCAPE_INLINE void force_segment(const double* points, const std::uint32_t* places, std::size_t count, const Displacement& row,
-                                    const Switching mine, const Switching theirs, const Multipliers multipliers, RowSums& row_sums,
-                                    StateTotals& totals) {
+LANESCAPE_INLINE void force_segment(const double* points, const std::uint32_t* places, const double* slopes, std::size_t count,
+                                    const Displacement& row, const Switching theirs, const Multipliers multipliers,
+                                    RowSums& row_sums, StateTotals& totals) {
   RowSums sums = row_sums;
-  for (std::size_t first = 0; first < count; first += chunk) {
-    const std::size_t here = count - first < chunk ? count - first : chunk, vectors = (here + lanes - 1) / lanes;
-    Separations separations;
-    fetch(points, places + first, vectors, row, separations);
-    for (std::size_t k = 0; k < vectors; ++k) {
-      const Displacement d{separations.x[k], separations.y[k], separations.z[k]};
-      const Vector r2 = separations.r2[k];
-      const Mask valid = lanes_below(static_cast<std::ptrdiff_t>(here - lanes * k));
-      const Vector pull = pull_of<one_switching>(r2, separations.fourth[k], mine, theirs, multipliers, valid);
-      sums.g = {multiply_add(pull, d.x, sums.g.x), multiply_add(pull, d.y, sums.g.y), multiply_add(pull, d.z, sums.g.z)};
-      sums.virial = multiply_add(pull, r2, sums.virial);
-      if constexpr (with_tensor) add_tensor(totals, d, pull);
+  for (std::size_t j = 0; j < count; j += lanes) {
+    prefetch(places + j + list_prefetch);
+    prefetch(slopes + j + list_prefetch);
+    Displacement d;
+    Vector lambda;
+    gather_quads(points, places + j, d.x, d.y, d.z, lambda);
+    d = {d.x - row.x, d.y - row.y, d.z - row.z};
+    const Vector r2 = squared_length(d), mine = load(slopes + j);
+    Vector slope;
+    if constexpr (one_switching) {
+      slope = multiply_add(lambda, multipliers.back, multipliers.own) * mine;
+    } else {
+      const Mask valid = lanes_below(static_cast<std::ptrdiff_t>(count - j));
+      const Vector back = slope_over_r(theirs, r2, both(less(r2, theirs.cutoff_squared), valid));
+      slope = multiply_add(lambda * multipliers.back, back, multipliers.own * mine);
     }
+    const Vector pull = broadcast(0.0) - slope;
+    sums.g = {multiply_add(pull, d.x, sums.g.x), multiply_add(pull, d.y, sums.g.y), multiply_add(pull, d.z, sums.g.z)};
+    sums.virial = multiply_add(pull, r2, sums.virial);
+    if constexpr (with_tensor) add_tensor(totals, d, pull);
   }
   row_sums = sums;
 }
@@ -161,7 +149,7 @@ void sum_forces(const StateDensityForceInput& in, double* gradient, LjOutput& ou
   const NeighbourRows& list = in.list;
   const std::uint32_t* places = list.neighbours;
   const std::uint32_t* length = list.lengths;
-  const Switching mine = broadcast_switching(in.switching);
+  const double* slopes = in.slopes;
   StateTotals totals;
   for (std::size_t k = 0; k < list.row_count; ++k) {
     const Displacement row = row_at(list, k);
@@ -174,12 +162,13 @@ void sum_forces(const StateDensityForceInput& in, double* gradient, LjOutput& ou
       if (in.filter[s] == 0.0 && in.filter_back[s] == 0.0) {
         // neither end counts the other
       } else if (w.spline.records == in.switching.spline.records) {
-        force_segment<with_tensor, true>(list.points, places, *length, row, mine, mine, multipliers, sums, totals);
+        force_segment<with_tensor, true>(list.points, places, slopes, *length, row, {}, multipliers, sums, totals);
       } else {
-        force_segment<with_tensor, false>(list.points, places, *length, row, mine, broadcast_switching(w), multipliers, sums,
+        force_segment<with_tensor, false>(list.points, places, slopes, *length, row, broadcast_switching(w), multipliers, sums,
                                           totals);
       }
       places += padded_length(*length);
+      slopes += padded_length(*length);
     }
     store_point(gradient + point_width * k, sums.g.x, sums.g.y, sums.g.z);
     totals.virial += sums.virial;
@@ -193,22 +182,22 @@ void state_densities(const StateDensityInput& in, double* densities) noexcept {
   const NeighbourRows& list = in.list;
   const std::uint32_t* places = list.neighbours;
   const std::uint32_t* length = list.lengths;
-  std::uint32_t *near = in.near, *near_length = in.near_lengths;
+  Near near{in.near, in.near_slopes};
+  std::uint32_t* near_length = in.near_lengths;
   const Switching w = broadcast_switching(in.switching);
   for (std::size_t k = 0; k < list.row_count; ++k) {
     const Displacement row = row_at(list, k);
     double density = 0.0;
     for (std::size_t s = 0; s < list.species_count; ++s, ++length, ++near_length) {
-      // What does not count is out of range.
-      const Vector cutoff_squared = in.filter[s] == 0.0 ? broadcast(0.0) : w.cutoff_squared;
-      std::size_t in_reach;
-      const double sum =
-          one_segment(list.points, places, *length, row, w, cutoff_squared, broadcast(in.reaches_squared[s]), near, in_reach);
+      near.count = 0;
+      const double sum = one_segment(list.points, places, *length, row, w, broadcast(in.reaches_squared[s]), near);
       density += in.filter[s] * sum;
       places += padded_length(*length);
-      *near_length = static_cast<std::uint32_t>(in_reach);
-      for (const std::size_t end = padded_length(in_reach); in_reach < end; ++in_reach) near[in_reach] = list.rows[k];
-      near += in_reach;
+      *near_length = static_cast<std::uint32_t>(near.count);
+      const std::size_t end = padded_length(near.count);
+      for (std::size_t j = near.count; j < end; ++j) near.places[j] = list.rows[k];
+      near.places += end;
+      near.slopes += end;
     }
     densities[k] = density;
   }

@@ -207,6 +207,7 @@ struct StateDensityInput {
   const double* reaches_squared;  // how far each species is near [sigma^2]
   std::uint32_t* near;            // room for as many as `list` has, padding included
   std::uint32_t* near_lengths;
+  double* near_slopes;  // w'(r)/r of the rows' species for each place in `near`; 0 beyond the cutoff
 };
 
 struct StateDensityForceInput {
@@ -215,6 +216,7 @@ struct StateDensityForceInput {
   const SwitchingSpline* switchings;  // of each species
   const double* filter;               // c(rows' species, each species)
   const double* filter_back;          // c(each species, rows' species)
+  const double* slopes;               // w'(r)/r of the rows' species for each neighbour
 };
 
 // The states of the rows and their neighbours. Where there are two, the fourth number of a point is the probability of the first.

@@ -63,6 +63,8 @@ int main(int argc, char** argv) {
   app.add_option("--particles", options.particles, "sites")->capture_default_str();
   app.add_option("--width", options.width, "of the box along x and y [sigma]")->capture_default_str();
   app.add_option("--length", options.length, "of the box along z [sigma]")->capture_default_str();
+  app.add_option("--start-density", options.start_density, "of the lattice in the middle; too low, and it tears")
+      ->capture_default_str();
   app.add_option("--temperature", options.temperature, "[epsilon]")->capture_default_str();
   app.add_option("--friction", options.friction, "of the thermostat")->capture_default_str();
   app.add_option("--time-step", options.time_step, "")->capture_default_str();

@@ -61,9 +61,9 @@ void LocalDensity::evaluate(Sites& sites, AlignedArray& values) {
   sites.for_each_block(scratch, [&](std::size_t b, const kernels::NeighbourRows& rows, auto& densities) {
     const std::size_t species = list.species_of(b);
     const Sites::Near near = sites.near(b);
-    sites.kernels().state_densities(
-        {rows, of(species).view(), filter_.data() + species * species_, near.reaches_squared, near.places, near.lengths},
-        densities.data());
+    sites.kernels().state_densities({rows, of(species).view(), filter_.data() + species * species_, near.reaches_squared,
+                                     near.places, near.lengths, near.slopes},
+                                    densities.data());
     for (std::size_t k = 0; k < rows.row_count; ++k) values[list.slot_at(rows.rows[k])] = densities[k];
   });
   sites.use_near();
@@ -80,8 +80,9 @@ void LocalDensity::add_gradient(Sites& sites, const AlignedArray& multipliers, S
   const auto scratch = [] { return BlockScratch(0); };
   sites.for_each_block(scratch, [&](std::size_t b, const kernels::NeighbourRows& rows, BlockScratch& own) {
     const std::size_t species = list.species_of(b), first = species * species_;
-    gradient({rows, switchings[species], switchings.data(), filter_.data() + first, filter_back_.data() + first},
-             own.records.data(), blocks[b]);
+    gradient(
+        {rows, switchings[species], switchings.data(), filter_.data() + first, filter_back_.data() + first, sites.near(b).slopes},
+        own.records.data(), blocks[b]);
     blocks[b].energy = 0.0;
     add_rows(sites, rows, own.records.data(), sums.gradient);
   });

@@ -21,13 +21,18 @@ void Sites::move_to(const AlignedArray& positions) {
   list_.update(positions);
   near_known_ = false;
   near_.resize(static_cast<std::size_t>(list_.parts()));
-  for (std::size_t k = 0; k < near_.size(); ++k) near_[k].resize(list_.array_size(k));
+  near_slopes_.resize(near_.size());
+  for (std::size_t k = 0; k < near_.size(); ++k) {
+    near_[k].resize(list_.array_size(k));
+    near_slopes_[k].resize(list_.array_size(k) + kernels::slot_padding);
+  }
   near_lengths_.resize(list_.block_count() * NeighbourList::block_rows * species());
 }
 
 Sites::Near Sites::near(std::size_t block) {
   return {near_[list_.array_of(block)].data() + list_.first_neighbour(block),
           near_lengths_.data() + NeighbourList::block_rows * species() * block,
+          near_slopes_[list_.array_of(block)].data() + list_.first_neighbour(block),
           reaches_squared_.data() + list_.species_of(block) * species()};
 }
 

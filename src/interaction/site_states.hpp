@@ -68,6 +68,7 @@ class Sites {
   // Room for who is near in a block, for kernels::KernelTable::state_densities; who takes it for one block takes it for all.
   struct Near {
     std::uint32_t *places, *lengths;
+    double* slopes;
     const double* reaches_squared;
   };
   Near near(std::size_t block);
@@ -86,7 +87,8 @@ class Sites {
   std::vector<double> reaches_squared_;
   bool near_known_ = false;
   std::vector<AlignedVector<std::uint32_t>> near_;  // as the list has its neighbours
-  AlignedVector<std::uint32_t> near_lengths_;       // of all blocks
+  std::vector<AlignedArray> near_slopes_;
+  AlignedVector<std::uint32_t> near_lengths_;  // of all blocks
   SiteStates states_;
   AlignedArray groups_;  // from three states on, of all points: four states, and again four
 };
