@@ -46,8 +46,7 @@ LANESCAPE_INLINE void pack_vector(const double* points, const std::uint32_t* pla
 }
 
 // The density of a vector of neighbours; w'(r)/r of each goes to `slopes`.
-LANESCAPE_INLINE Vector density_of(const Switching& w, Vector r2, Mask valid, double* slopes) {
-  const Mask in_range = both(less(r2, w.cutoff_squared), valid);
+LANESCAPE_INLINE Vector density_of(const Switching& w, Vector r2, Mask in_range, double* slopes) {
   SplinePlace place;
   find_place(place, r2 * w.per_unit, w.intervals, 1);
   Vector b, c, d, a;
@@ -60,11 +59,15 @@ LANESCAPE_INLINE Vector density_of(const Switching& w, Vector r2, Mask valid, do
 
 LANESCAPE_INLINE Vector sum_of_packed(const Switching& w, const Packed& packed, double* slopes) {
   Vector sum = broadcast(0.0);
-  for (std::size_t j = 0; j < packed.count; j += lanes) {
-    const Mask valid = lanes_below(static_cast<std::ptrdiff_t>(packed.count - j));
-    sum += density_of(w, where(valid, load(packed.r2 + j)), valid, slopes + j);
+  std::size_t j = 0;
+  for (; j + lanes <= packed.count; j += lanes) {
+    const Vector r2 = load(packed.r2 + j);
+    sum += density_of(w, r2, less(r2, w.cutoff_squared), slopes + j);
   }
-  return sum;
+  if (j == packed.count) return sum;
+  const Mask valid = lanes_below(static_cast<std::ptrdiff_t>(packed.count - j));
+  const Vector r2 = where(valid, load(packed.r2 + j));
+  return sum + density_of(w, r2, both(less(r2, w.cutoff_squared), valid), slopes + j);
 }
 
 // What a segment's neighbours that are near go to.

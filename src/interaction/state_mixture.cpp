@@ -123,7 +123,7 @@ StateMixture::StateMixture(StateMixtureParts parts, const Box& box, const Partic
       values_(layout.slots(), 0.0),
       multipliers_(layout.slots(), 0.0),
       slopes_(layout.slots() * parts_.response->states(), 0.0),
-      probabilities_(layout.slots() * parts_.response->states()),
+      probability_slopes_(layout.slots() * parts_.response->states(), 0.0),
       unused_(layout.dimension(), 0.0) {
   if (parts_.one_body.mu.empty()) parts_.one_body.mu.assign(layout.blocks().size() * parts_.response->states(), 0.0);
 }
@@ -131,19 +131,24 @@ StateMixture::StateMixture(StateMixtureParts parts, const Box& box, const Partic
 double StateMixture::find_states() {
   const auto& list = sites_.list();
   const std::size_t states = sites_.states();
+  const double temperature = parts_.one_body.entropy_temperature;
   std::vector<double> energies(list.block_count(), 0.0);
-  sites_.for_each_block(no_scratch, [&](std::size_t b, const kernels::NeighbourRows& rows, int) {
-    const std::size_t species = list.species_of(b);
+  const auto scratch = [states] { return std::vector<StateProbability>(states); };
+  sites_.for_each_block(scratch, [&](std::size_t b, const kernels::NeighbourRows& rows, std::vector<StateProbability>& of_site) {
+    const double* mu = parts_.one_body.mu.data() + list.species_of(b) * states;
     for (std::size_t k = 0; k < rows.row_count; ++k) {
       const std::size_t slot = list.slot_at(rows.rows[k]);
-      const std::span<StateProbability> of_site(probabilities_.data() + slot * states, states);
-      parts_.response->evaluate(species, values_[slot], of_site);
+      parts_.response->evaluate(list.species_of(b), values_[slot], of_site);
+      double multiplier = 0.0;
       for (std::size_t a = 0; a < states; ++a) {
-        const double p = sites_.site_states().of(slot)[a] = of_site[a].p;
-        // p ln p vanishes with p.
-        const double entropy = p > 0.0 ? parts_.one_body.entropy_temperature * p * of_site[a].logarithm : 0.0;
-        energies[b] += parts_.one_body.mu[species * states + a] * p + entropy;
+        const auto& [p, slope, logarithm] = of_site[a];
+        sites_.site_states().p[slot * states + a] = p;
+        probability_slopes_[slot * states + a] = slope;
+        // p ln p vanishes with p, and so does what follows from it with dp.
+        energies[b] += mu[a] * p + (p > 0.0 ? temperature * p * logarithm : 0.0);
+        if (slope != 0.0) multiplier += slope * (mu[a] + temperature * (logarithm + 1.0));
       }
+      multipliers_[slot] = multiplier;
     }
   });
   double energy = 0.0;
@@ -152,21 +157,14 @@ double StateMixture::find_states() {
 }
 
 // dU/d(order parameter) = sum_a dU/dp_a dp_a/d(order parameter).
-void StateMixture::find_multipliers() {
+void StateMixture::add_multipliers_of_potentials() {
   const auto& list = sites_.list();
   const std::size_t states = sites_.states();
-  sites_.for_each_block(no_scratch, [&](std::size_t b, const kernels::NeighbourRows& rows, int) {
+  sites_.for_each_block(no_scratch, [&](std::size_t, const kernels::NeighbourRows& rows, int) {
     for (std::size_t k = 0; k < rows.row_count; ++k) {
       const std::size_t slot = list.slot_at(rows.rows[k]);
-      double multiplier = 0.0;
-      for (std::size_t a = 0; a < states; ++a) {
-        const StateProbability& state = probabilities_[slot * states + a];
-        if (state.slope == 0.0) continue;
-        const double one_body =
-            parts_.one_body.mu[list.species_of(b) * states + a] + parts_.one_body.entropy_temperature * (state.logarithm + 1.0);
-        multiplier += state.slope * (slopes_[slot * states + a] + one_body);
-      }
-      multipliers_[slot] = multiplier;
+      for (std::size_t a = 0; a < states; ++a)
+        multipliers_[slot] += probability_slopes_[slot * states + a] * slopes_[slot * states + a];
     }
   });
 }
@@ -182,7 +180,7 @@ StateMixture::Evaluation StateMixture::evaluate(const AlignedArray& positions, A
   StateSums sums{wanted, gradient, slopes_};
   for (const auto& potential : parts_.potentials) potential->add(sites_, sums);
   if (by_order && forces) {
-    find_multipliers();
+    add_multipliers_of_potentials();
     parts_.order_parameter->add_gradient(sites_, multipliers_, sums);
   }
   return {sums.energy + one_body_energy, one_body_energy, sums.virial, sums.virial_tensor};

@@ -71,15 +71,16 @@ class StateMixture {
 
  private:
   Evaluation evaluate(const AlignedArray& positions, AlignedArray& gradient, StateSums::Wanted wanted);
-  double find_states();  // and the one-body energy
-  void find_multipliers();
+  // States, the one-body energy, and what it does to the multipliers.
+  double find_states();
+  void add_multipliers_of_potentials();
 
   StateMixtureParts parts_;
   Sites sites_;
-  AlignedArray values_, multipliers_;            // of each slot: order parameter, dU/d(order parameter)
-  AlignedArray slopes_;                          // dU/dp
-  std::vector<StateProbability> probabilities_;  // slots x states
-  AlignedArray unused_;                          // gradient where only the energy is wanted
+  AlignedArray values_, multipliers_;  // of each slot: order parameter, dU/d(order parameter)
+  AlignedArray slopes_;                // dU/dp
+  AlignedArray probability_slopes_;    // dp/d(order parameter), slots x states
+  AlignedArray unused_;                // gradient where only the energy is wanted
 };
 
 }  // namespace lanescape
