@@ -54,7 +54,7 @@ LANESCAPE_INLINE Vector density_of(const Switching& w, Vector r2, Mask in_range,
   prefetch_for_write(slopes + write_ahead);
   // 2 dw/d(r^2) = w'(r)/r.
   store_anywhere(slopes, where(in_range, spline_slope(place.s, b, c, d) * (w.per_unit + w.per_unit)));
-  return where(in_range, multiply_add(place.s, multiply_add(place.s, multiply_add(place.s, d, c), b), a));
+  return where(in_range, spline_value(place.s, b, c, d, a));
 }
 
 LANESCAPE_INLINE Vector sum_of_packed(const Switching& w, const Packed& packed, double* slopes) {

@@ -56,10 +56,8 @@ LANESCAPE_INLINE void find_place(SplinePlace& place, Vector x, Vector intervals,
   place.stride = static_cast<std::uint32_t>(width * point_width);
 }
 
-LANESCAPE_INLINE Vector spline_value(const double* records, const SplinePlace& place) {
-  Vector b, c, d, a;
-  gather_quads(records, place, b, c, d, a);
-  return multiply_add(place.s, multiply_add(place.s, multiply_add(place.s, d, c), b), a);
+LANESCAPE_INLINE Vector spline_value(Vector s, Vector b, Vector c, Vector d, Vector a) {
+  return multiply_add(s, multiply_add(s, multiply_add(s, d, c), b), a);
 }
 
 // With respect to the argument in intervals.

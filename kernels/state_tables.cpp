@@ -49,7 +49,7 @@ LANESCAPE_INLINE void pair_vector(const double* points, const std::uint32_t* pla
       Vector c1, c2, c3, c0;
       gather_quads(table.records + point_width * (a * sweep.states + b), place, c1, c2, c3, c0);
       const Vector s = place.s, p_b = where(pair.in_range, states.p[b]);
-      slopes[a] = multiply_add(p_b, multiply_add(s, multiply_add(s, multiply_add(s, c3, c2), c1), c0), slopes[a]);
+      slopes[a] = multiply_add(p_b, spline_value(s, c1, c2, c3, c0), slopes[a]);
       if constexpr (output != Output::energy) force = multiply_add(p_a * p_b, spline_slope(s, c1, c2, c3), force);
     }
   }

@@ -124,6 +124,34 @@ TEST(StateMixture, TablesAreConsistentTooTheyEndSmoothly) {
   }
 }
 
+TEST(StateMixture, AnySwitchingFunctionWillDo) {
+  Configuration fluid = state_mixture_fluid(27, 2);
+  fluid.wrap();
+  const double cutoff = cutoff_in_gap(fluid, 2.2, 2.6);
+  const auto lucy = [](double r) { return std::pow(1.0 - r / 1.9, 3) * (1.0 + 3.0 * r / 1.9); };
+  const auto bell = [](double r) { return std::pow(1.0 - r * r / 4.0, 3); };
+  const auto parts = [&] {
+    StateMixtureParts made = make_parts(state_mixture_model({2, 3, Filter::every, Potentials::lennard_jones, 0.3}, cutoff));
+    std::vector<SwitchingFunction> own{{lucy, 1.9}, {bell, 2.0}};
+    made.order_parameter = std::make_unique<LocalDensity>(std::move(own), std::vector<double>{1.0, 0.5, 0.0, 2.0});
+    // These densities are of few neighbours.
+    made.response =
+        std::make_unique<TanhCascade>(std::vector<std::vector<TanhCascade::Step>>{{{3.0, 1.0}, {1.0, 0.5}}, {{4.0, 2.0}}});
+    return made;
+  };
+  expect_consistent(parts, fluid, 2, "own switching functions");
+  const std::vector<double> seen = [&] {
+    const ParticleLayout layout(fluid.species, 2);
+    StateMixture interaction(parts(), fluid.box, layout, table(), {});
+    interaction.energy(layout.to_slots(fluid.positions));
+    return std::vector<double>{interaction.states().of(layout.slot_of(0))[0], interaction.states().of(layout.slot_of(1))[1]};
+  }();
+  for (const double p : seen) {
+    EXPECT_GT(p, 1e-3);
+    EXPECT_LT(p, 1.0 - 1e-3);
+  }
+}
+
 TEST(StateMixture, OneStateIsPlainLennardJonesToTwoUnitsInTheLastPlace) {
   const Configuration fluid = state_mixture_fluid(500, 1);
   StateMixtureModel one;
