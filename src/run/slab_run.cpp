@@ -13,12 +13,21 @@
 namespace lanescape {
 namespace {
 
+// So many that neighbours along no axis are nearer than they have to be: a lattice that is squeezed flies apart.
+std::size_t cells_across(const SlabOptions& options) {
+  const auto nearest = [&](double cells) {
+    const double step = options.width / cells;
+    return std::min(step, 1.0 / (options.start_density * step * step));
+  };
+  const double few = std::max(1.0, std::floor(options.width * std::cbrt(options.start_density)));
+  return static_cast<std::size_t>(nearest(few) < nearest(few + 1.0) ? few + 1.0 : few);
+}
+
 // A simple lattice in the middle of the box, as long as it has to be; species in turn.
 Configuration lattice_slab(const SlabOptions& options, std::size_t species) {
   Configuration slab{{{options.width, options.width, options.length}}, {}, {}};
-  const double spacing = std::cbrt(1.0 / options.start_density);
-  const auto across = static_cast<std::size_t>(std::max(1.0, std::floor(options.width / spacing)));
-  const double step = options.width / static_cast<double>(across), rise = spacing * spacing * spacing / (step * step);
+  const std::size_t across = cells_across(options);
+  const double step = options.width / static_cast<double>(across), rise = 1.0 / (options.start_density * step * step);
   const std::size_t layers = (options.particles + across * across - 1) / (across * across);
   if (static_cast<double>(layers) * rise > options.length)
     throw_bad_input(fmt::format("{} particles at density {} do not fit into a box of {} x {} x {}", options.particles,
