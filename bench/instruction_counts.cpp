@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <span>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -23,6 +24,7 @@
 #include "dynamics/event_driven.hpp"
 #include "interaction/hard_sphere.hpp"
 #include "interaction/lennard_jones.hpp"
+#include "interaction/probe_field.hpp"
 #include "interaction/state_mixture.hpp"
 #include "io/extended_xyz.hpp"
 #include "landscape/hard_sphere_landscape.hpp"
@@ -285,6 +287,31 @@ void displacement_moments(Isa isa, std::uint64_t rounds) {
   for (; rounds > 0; --rounds) keep(algebra.displacement_moments(liquid.positions, liquid.goal));
 }
 
+// Places at random in the same liquid.
+std::vector<double> random_places(const Box& box, std::uint64_t count) {
+  const CounterRandom random(1, RandomStream::sites);
+  std::vector<double> places;
+  for (std::uint64_t k = 0; k < count; ++k) {
+    const auto fraction = random.uniform_point(k, 0);
+    for (std::size_t axis = 0; axis < 3; ++axis) places.push_back(fraction[axis] * box.length[axis]);
+  }
+  return places;
+}
+
+void lj_probe(Isa isa, std::uint64_t rounds) {
+  const SoftLiquid liquid;
+  const ProbeField field(liquid.model, liquid.start, 0, kernel_table(isa));
+  const std::vector<double> places = random_places(liquid.start.box, rounds);
+  for (std::size_t k = 0; k < places.size(); k += 3) keep(field.sample({places[k], places[k + 1], places[k + 2]}));
+}
+
+void lj_probe_first_clear(Isa isa, std::uint64_t rounds) {
+  const SoftLiquid liquid;
+  const ProbeField field(liquid.model, liquid.start, 0, kernel_table(isa));
+  const std::vector<double> places = random_places(liquid.start.box, rounds), clearances = field.clearances(60.0);
+  for (std::size_t k = 0; k < rounds; ++k) k += field.first_clear(clearances, std::span(places).subspan(3 * k));
+}
+
 struct Case {
   std::string_view name;
   void (*run)(Isa isa, std::uint64_t rounds);
@@ -306,6 +333,8 @@ constexpr Case cases[] = {
     {"state_lj_gradient", state_lj_gradient, 2},
     {"state_table_gradient", state_table_gradient, 2},
     {"neighbour_list", neighbour_list, 4},
+    {"lj_probe", lj_probe, 400},
+    {"lj_probe_first_clear", lj_probe_first_clear, 4000},
     {"contour_step", contour_step, 40},
     {"sphere_any_overlap", sphere_any_overlap, 20},
     {"sphere_pairs_within", sphere_pairs_within, 20},

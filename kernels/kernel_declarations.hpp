@@ -18,6 +18,10 @@ double lj_list_energy_mixed(const LjListInput& in) noexcept;
 void lj_list_force_mixed(const LjListInput& in, double* gradient) noexcept;
 void lj_list_gradient_mixed(const LjListInput& in, double* gradient, LjOutput& out) noexcept;
 std::size_t points_within(const PointGrid& grid, const NeighbourQuery& query, std::uint32_t* out, std::size_t capacity) noexcept;
+void lj_probe(const ProbeInput& in, const double* position, ProbeOutput& out) noexcept;
+void lj_probe_energies(const ProbeInput& in, const double* positions, std::size_t count, double* energies) noexcept;
+std::size_t lj_probe_first_clear(const ProbeInput& in, const double* clearances, const double* positions,
+                                 std::size_t count) noexcept;
 
 void state_densities(const StateDensityInput& in, double* densities) noexcept;
 double state_lj_energy(const StateLjInput& in) noexcept;

@@ -30,6 +30,12 @@ struct KernelTable {
   // in rising order; their number, or capacity + 1 where there may be no room for all of them and a vector more.
   std::size_t (*points_within)(const PointGrid&, const NeighbourQuery&, std::uint32_t* out, std::size_t capacity) noexcept;
 
+  // What a Lennard-Jones particle would feel at a position; the energies of many, x0 y0 z0 x1 ..., to the same bits.
+  void (*lj_probe)(const ProbeInput&, const double* position, ProbeOutput&) noexcept;
+  void (*lj_probe_energies)(const ProbeInput&, const double* positions, std::size_t count, double* energies) noexcept;
+  // The first of these positions with no point of any species nearer than that species' clearance; their number if there is none.
+  std::size_t (*lj_probe_first_clear)(const ProbeInput&, const double* clearances, const double* positions,
+                                      std::size_t count) noexcept;
   // Interactions that follow the states of sites, over neighbour lists, for rows [0, row_count). Densities sum c w of each row.
   // `near` and its lengths may stand in for those of the list from then on.
   void (*state_densities)(const StateDensityInput&, double* densities) noexcept;

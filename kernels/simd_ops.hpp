@@ -33,6 +33,7 @@ using Mask = xsimd::batch_bool<double, Arch>;
 inline constexpr std::size_t lanes = Vector::size;
 
 inline Vector load(const double* p) noexcept { return Vector::load_aligned(p); }
+inline Vector load_anywhere(const double* p) noexcept { return Vector::load_unaligned(p); }
 inline void store(double* p, Vector v) noexcept { v.store_aligned(p); }
 inline void store_anywhere(double* p, Vector v) noexcept { v.store_unaligned(p); }
 inline Vector broadcast(double s) noexcept { return Vector(s); }
@@ -77,6 +78,7 @@ inline Vector& operator+=(Vector& a, Vector b) noexcept { return a = a + b; }
 inline Vector load(const double* p) noexcept {
   return lanewise([&](std::size_t k) { return p[k]; });
 }
+inline Vector load_anywhere(const double* p) noexcept { return load(p); }
 inline void store(double* p, Vector v) noexcept {
   for (std::size_t k = 0; k < lanes; ++k) p[k] = v.lane[k];
 }

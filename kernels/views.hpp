@@ -88,20 +88,43 @@ struct LjListInput {
   const LjSinglePair* single_pairs;  // the same; for the kernels in mixed precision, else null
 };
 
-// Points sorted by the cells of a grid, cells running fastest along z; their coordinates in columns, in single precision: a search
-// looks a little further to make up for it.
-struct PointGrid {
-  const std::uint32_t* first;  // of each cell's points; one more at the end
+// The cells of a grid, running fastest along z; a column is the cells of one x and y.
+struct GridShape {
   std::size_t cells[3];
   double low[3], edge[3];  // of the grid, of a cell [sigma]; points beyond a face are in the cells at it
   double cells_per_length[3];
-  const float *x, *y, *z;  // of all points; 16 more than there are can be read
+};
+
+// Points sorted by the cells of a grid; their coordinates in columns, in single precision: a search looks a little further to make
+// up for it.
+struct PointGrid : GridShape {
+  const std::uint32_t* first;  // of each cell's points; one more at the end
+  const float *x, *y, *z;      // of all points; 16 more than there are can be read
 };
 
 struct NeighbourQuery {
   double position[3];
   double reach;
   std::uint32_t self;  // not its own neighbour
+};
+
+// Points of one species around a probe, sorted by the cells of a grid, coordinates in columns. Columns of cells have room between
+// them, so that points can be put in; no column's points are read as another's.
+struct ProbeSpecies : GridShape {
+  const std::uint32_t* first;  // cells[2] + 1 per column: of each cell's points, and the column's end
+  const double *x, *y, *z;     // slot_padding more than there are can be read
+  LjPair pair;                 // of the probe with this species [sigma]; `images` is not looked at: images are points
+};
+
+// What a particle that is not there would feel.
+struct ProbeInput {
+  const ProbeSpecies* species;
+  std::size_t species_count;
+};
+
+struct ProbeOutput {
+  double energy;       // the sum over all points, never half of it [epsilon]
+  double gradient[3];  // [epsilon/sigma]
 };
 
 // Sums over the particles j of one displacement: sum |dr_j|^2 and sum |dr_j|^4.

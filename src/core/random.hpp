@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace lanescape {
@@ -11,12 +12,13 @@ enum class RandomStream : std::uint32_t {
   sites = 3,
   displacements = 4,
   monte_carlo = 5,
+  insertion = 6,
   langevin = 7
 };
 
 // Counter-based random numbers (Philox4x32-10, Salmon et al., SC 2011, doi 10.1145/2063384.2063405): each is a function of
 // (seed, stream, step, particle, draw), so that no state is kept and no order of calls or number of threads matters. The
-// three members draw from the same block at the same place: a stream uses one of them, or tells them apart by `draw` < 2^24.
+// members draw from the same block at the same place: a stream uses one of them, or tells them apart by `draw` < 2^24.
 class CounterRandom {
  public:
   CounterRandom(std::uint64_t seed, RandomStream stream) : seed_(seed), stream_(stream) {}
@@ -25,6 +27,8 @@ class CounterRandom {
   double uniform(std::uint64_t step, std::uint32_t particle, std::uint32_t draw = 0) const;
   // Standard normal (Box-Muller).
   double normal(std::uint64_t step, std::uint32_t particle, std::uint32_t draw = 0) const;
+  // Three numbers uniform in (0, 1), 32 bits each, from one block.
+  std::array<double, 3> uniform_point(std::uint64_t step, std::uint32_t particle, std::uint32_t draw = 0) const;
   // Uniform in [0, n), n > 0.
   std::uint32_t below(std::uint32_t n, std::uint64_t step, std::uint32_t particle, std::uint32_t draw = 0) const;
 

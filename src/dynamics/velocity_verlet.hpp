@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "configuration/mixture.hpp"
@@ -32,6 +33,8 @@ class VelocityVerlet {
   double time_step() const { return time_step_; }
   const AlignedArray& position() const { return position_; }
   const AlignedArray& velocity() const { return velocity_; }
+  // In the layout's order; padding zero.
+  void set_velocity(AlignedArray velocity) { velocity_ = std::move(velocity); }
   void reverse_velocities();
 
   // Positions, velocities and counters; forces are recomputed when read, to the same bits.

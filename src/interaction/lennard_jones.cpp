@@ -37,6 +37,18 @@ void check_cutoff(const LennardJonesModel& model, const Box& box) {
                     cutoff, max_image_shells, box.shortest(), (max_image_shells + 0.5) * box.shortest()));
 }
 
+// 2 pi / V times the integrals beyond r_c of r^2 u(r) and of -r^3 u'(r).
+double long_range_energy(const LennardJonesModel& model, std::size_t a, std::size_t b, double volume) {
+  const double sigma = model.sigma[model.pair(a, b)], x3 = std::pow(model.cutoff, -3), x9 = x3 * x3 * x3;
+  return 8.0 * std::numbers::pi / volume * model.epsilon[model.pair(a, b)] * sigma * sigma * sigma * (x9 / 9.0 - x3 / 3.0);
+}
+
+double long_range_virial(const LennardJonesModel& model, std::size_t a, std::size_t b, double volume) {
+  const double sigma = model.sigma[model.pair(a, b)], x3 = std::pow(model.cutoff, -3), x9 = x3 * x3 * x3;
+  return 8.0 * std::numbers::pi / volume * model.epsilon[model.pair(a, b)] * sigma * sigma * sigma *
+         (12.0 * x9 / 9.0 - 6.0 * x3 / 3.0);
+}
+
 const char* to_string(Precision precision) { return precision == Precision::mixed ? "mixed" : "double"; }
 
 Precision parse_precision(std::string_view word) {
@@ -129,14 +141,11 @@ void LennardJones::add_images_of_self(const LennardJonesModel& model, const Box&
 }
 
 void LennardJones::add_tail(const LennardJonesModel& model, const Box& box) {
-  // Sum over pairs of species of 2 pi N_a N_b / V times the integrals beyond r_c of r^2 u(r) and of -r^3 u'(r).
   for (std::size_t a = 0; a < blocks_.size(); ++a)
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      const double sigma = model.sigma[model.pair(a, b)], x3 = std::pow(model.cutoff, -3), x9 = x3 * x3 * x3;
       const double pairs = static_cast<double>(blocks_[a].count) * static_cast<double>(blocks_[b].count);
-      const double scale = 8.0 * std::numbers::pi * pairs / box.volume() * model.epsilon[model.pair(a, b)] * sigma * sigma * sigma;
-      const double virial = scale * (12.0 * x9 / 9.0 - 6.0 * x3 / 3.0);
-      constants_.energy += scale * (x9 / 9.0 - x3 / 3.0);
+      const double virial = pairs * long_range_virial(model, a, b, box.volume());
+      constants_.energy += pairs * long_range_energy(model, a, b, box.volume());
       constants_.virial += virial;
       for (std::size_t k = 0; k < 3; ++k) constants_.virial_tensor[k] += virial / 3.0;
     }

@@ -20,9 +20,13 @@ class LennardJonesLandscape final : public SoftLandscape {
   void gradient(const AlignedArray& position, AlignedArray& gradient) override { interaction_.gradient(position, gradient); }
   void exchange(Archive& archive) override { interaction_.exchange(archive); }
 
-  // sum r.f [epsilon]; overwrites `gradient`.
-  double virial(const AlignedArray& position, AlignedArray& gradient) {
-    return interaction_.energy_and_gradient(position, gradient).virial;
+  // V and sum r.f [epsilon]; overwrites `gradient`.
+  struct EnergyAndVirial {
+    double energy, virial;
+  };
+  EnergyAndVirial energy_and_virial(const AlignedArray& position, AlignedArray& gradient) {
+    const LennardJones::Evaluation e = interaction_.energy_and_gradient(position, gradient);
+    return {e.energy, e.virial};
   }
 
  private:

@@ -107,7 +107,9 @@ class SoftSource {
     if (recorded_++ % records_per_virial == 0) {
       const double t = verlet.temperature();
       temperature_ += t;
-      pressure_ += (static_cast<double>(layout_->size()) * t + landscape_.virial(verlet.position(), gradient_) / 3.0) / volume_;
+      pressure_ +=
+          (static_cast<double>(layout_->size()) * t + landscape_.energy_and_virial(verlet.position(), gradient_).virial / 3.0) /
+          volume_;
       ++samples_;
     }
     record.record(verlet.velocity(), verlet.position());

@@ -17,18 +17,19 @@
 #include "verification/check.hpp"
 #include "verification/hard_sphere_cases.hpp"
 #include "verification/hard_sphere_checks.hpp"
+#include "verification/probe_checks.hpp"
 #include "verification/reference_bridge.hpp"
 #include "verification/state_mixture_checks.hpp"
 
 namespace lanescape {
-namespace {
 
-// How much more than the tolerances says the largest coordinate allows.
 double rounding_allowance(const Configuration& configuration) {
   double largest = tolerance::position_extent;
   for (const double x : configuration.positions) largest = std::max(largest, std::abs(x));
   return largest / tolerance::position_extent;
 }
+
+namespace {
 
 double energy_deviation(double energy, const reference::Evaluation& expected) {
   return relative(energy, expected.energy, expected.magnitude);
@@ -278,6 +279,7 @@ std::vector<Deviation> verify_kernels(Isa isa, const std::vector<LennardJonesCas
   std::vector<Deviation> deviations = verify_lennard_jones(table, cases);
   for (auto& deviation : verify_lennard_jones_lists(table, cases)) deviations.push_back(std::move(deviation));
   for (auto& deviation : verify_lennard_jones_mixed(table, cases)) deviations.push_back(std::move(deviation));
+  for (auto& deviation : verify_probes(table, cases)) deviations.push_back(std::move(deviation));
   for (auto& deviation : verify_vector_algebra(table)) deviations.push_back(std::move(deviation));
   for (auto& deviation : verify_state_mixtures(table, state_mixture_cases())) deviations.push_back(std::move(deviation));
   for (auto& deviation : verify_hard_spheres(table, hard_sphere_cases())) deviations.push_back(std::move(deviation));

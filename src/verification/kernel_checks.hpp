@@ -65,6 +65,9 @@ struct Deviation {
   bool passed() const { return cases > 0 && worst <= tolerance; }
 };
 
+// How much more than the tolerances the largest coordinate allows.
+double rounding_allowance(const Configuration& configuration);
+
 // One line for messages.
 std::string describe(const Deviation& deviation);
 
@@ -76,7 +79,8 @@ std::vector<Deviation> verify_lennard_jones_lists(const kernels::KernelTable& ta
 std::vector<Deviation> verify_lennard_jones_mixed(const kernels::KernelTable& table, const std::vector<LennardJonesCase>& cases);
 // The vector algebra of a table against loops in long double, at lengths that leave every remainder.
 std::vector<Deviation> verify_vector_algebra(const kernels::KernelTable& table);
-// These and those of hard_sphere_checks.hpp. Throws Error(bad_input) where the instruction set is not available.
+// These and those of hard_sphere_checks.hpp and probe_checks.hpp. Throws Error(bad_input) where the instruction set is not
+// available.
 std::vector<Deviation> verify_kernels(Isa isa, const std::vector<LennardJonesCase>& cases);
 
 }  // namespace lanescape

@@ -24,7 +24,7 @@ import numpy
 
 PROGRAM = DATA = None
 
-SUBCOMMANDS = ("info", "energy", "overlap", "endpoints", "path", "diffusion", "verify")
+SUBCOMMANDS = ("info", "energy", "overlap", "endpoints", "path", "diffusion", "insert", "verify")
 COMMON_OPTIONS = ("--help", "--seed", "--threads", "--isa", "--quiet", "--config", "--out", "--resume")
 
 # A liquid small and short enough for a test. Eight particles and the nearest image make 10^6 steps in half a second.
@@ -94,7 +94,7 @@ def contents(folder):
     for file in sorted(Path(folder).iterdir()):
         if file.name == "result.json":
             files[file.name] = without_seconds(one_object(file.read_text()))
-        elif file.name == "paths.csv":
+        elif file.name in ("paths.csv", "scan.csv"):
             files[file.name] = [{k: v for k, v in row.items() if k != "seconds"} for row in csv.DictReader(file.read_text().splitlines())]
         elif file.is_file():
             files[file.name] = file.read_bytes()
@@ -162,7 +162,7 @@ class Usage(ProgramTest):
             text = lanescape(subcommand, "--help").stdout
             for absent in ("--adaptive", "swap"):
                 self.assertNotIn(absent, text, subcommand)
-        for absent in ("shorten", "insert", "analyze"):
+        for absent in ("shorten", "analyze"):
             self.refused(absent, says=absent)
         self.refused("energy", self.file("two.xyz", frame(*TWO)), "--model", "water", says=("water", "kob-andersen", "ucg"))
 
@@ -791,6 +791,111 @@ class HardSpheres(ProgramTest):
         self.refused("path", *SPHERES, "--method", "away", "--step", "0.1", says="--step is not allowed")
 
 
+class Insertions(ProgramTest):
+    TAIL = ("--model", "lennard-jones", "--truncation", "tail")
+    SCAN = ("insert", "--scan", *TAIL, "--states", "0.4:2.5,0.5:2", "--particles", "64", "--configurations", "2", "--count", "20",
+            "--methods", "usher,screened,descent", "--tolerances", "0.2,0.01", "--equilibration-steps", "200", "--between-steps", "100",
+            "--widom-probes", "500", "--holes", "2", "--iso-energies", "0,5", "--traced-searches", "5", "--threads", "1")
+    GROWTH = ("insert", "--densify", "0.5", *TAIL, "--particles", "64", "--rows", "4", "--rate", "0.1", "--equilibration-steps", "200",
+              "--threads", "1")
+
+    def setUp(self):
+        super().setUp()
+        self.fluid = DATA / "ar_dilute_63.extxyz"
+
+    def test_each_insertion_is_reported_and_the_file_has_the_fluid_with_the_particles(self):
+        for extra in ((), ("--method", "screened"), ("--method", "descent", "--measure", "absolute"), ("--energy", "-0.5")):
+            out = self.folder / f"out{len(extra)}{'-'.join(extra[1:2])}"
+            run = self.done("insert", self.fluid, *self.TAIL, "--count", "5", "--tolerance", "0.02", *extra, "--out", out)
+            self.assertEqual((len(run["insertions"]), run["failures"], run["particles"]), (5, 0, 68))
+            before = self.done("energy", self.fluid, *self.TAIL)["energy"]
+            after = self.done("energy", out / "inserted.extxyz", *self.TAIL)["energy"]
+            self.assertAlmostEqual(after - before, sum(i["energy"] for i in run["insertions"]), delta=1e-11)
+            scale = 1.0 if run["measure"] == "absolute" else abs(run["target"])
+            for insertion in run["insertions"]:
+                self.assertTrue({"position", "energy", "error", "evaluations", "trials", "distance"} <= set(insertion))
+                self.assertLessEqual(abs(insertion["energy"] - run["target"]), 0.02 * scale)
+                self.assertAlmostEqual(insertion["error"], (insertion["energy"] - run["target"]) / scale, delta=1e-14)
+            self.assertEqual(run["mean_evaluations"], sum(i["evaluations"] for i in run["insertions"]) / 5)
+            self.assertEqual(one_object((out / "result.json").read_text()), run)
+        mean = self.done("insert", self.fluid, *self.TAIL)["target"]
+        self.assertAlmostEqual(mean, before / 63, delta=1e-12)
+
+    def test_insertions_do_not_depend_on_the_number_of_threads(self):
+        runs = [without_seconds(self.done("insert", self.fluid, *self.TAIL, "--count", "40", "--threads", threads)) for threads in "12"]
+        self.assertEqual(*runs)
+
+    def test_a_region_is_kept_and_temperatures_give_velocities(self):
+        region = (1.0, 4.0, 2.0, 5.5, 0.0, 9.0)
+        for wall in ("reflect", "well"):
+            run = self.done("insert", self.fluid, *self.TAIL, "--count", "10", "--wall", wall, "--temperature", "1.5",
+                            "--region", ",".join(map(str, region)))
+            for insertion in run["insertions"]:
+                self.assertEqual(len(insertion["velocity"]), 3)
+                for axis, x in enumerate(insertion["position"]):
+                    self.assertTrue(region[2 * axis] <= x <= region[2 * axis + 1])
+
+    def test_species_are_inserted_and_removed(self):
+        mixture = DATA / "ka_dilute_50.extxyz"
+        out = self.folder / "out"
+        run = self.done("insert", mixture, "--species", "P", "--count", "2", "--energy", "-1", "--remove", "3", "--removal",
+                        "least-disturbance", "--out", out)
+        before, after = (f.read_text().split("\n")[2:] for f in (mixture, out / "inserted.extxyz"))
+        count = [sum(line.startswith("P ") for line in lines) for lines in (before, after)]
+        self.assertEqual(count[1], count[0] - 1)
+        self.assertEqual(len(run["removals"]), 3)
+        energies = [self.done("energy", f)["energy"] for f in (mixture, out / "inserted.extxyz")]
+        change = sum(i["energy"] for i in run["insertions"]) - sum(r["energy"] for r in run["removals"])
+        self.assertAlmostEqual(energies[1] - energies[0], change, delta=1e-11)
+
+    def test_a_target_that_no_place_has_ends_with_status_one_and_nothing_inserted(self):
+        out = self.folder / "out"
+        run = self.done("insert", self.fluid, *self.TAIL, "--energy", "-80", "--most-trials", "50", "--count", "2", "--out", out, status=1)
+        self.assertEqual((run["insertions"], run["failures"], run["mean_evaluations"], run["outcome"]), ([], 2, None, "limit of trials"))
+        self.assertFalse((out / "inserted.extxyz").exists())
+
+    def test_bad_input_is_refused(self):
+        empty = self.file("empty.xyz", frame(count=0))
+        for arguments, says in (((self.fluid, "--region", "0,5,3,2,0,5"), ("region", "y")), ((self.fluid, "--region", "0,500,0,5,0,5"), "region"),
+                                ((self.fluid, "--region", "1,2,3"), "six numbers"), ((self.fluid, "--tolerance", "0"), "tolerance"),
+                                ((self.fluid, "--tolerance", "-1"), "tolerance"), ((self.fluid, "--tolerance", "nan"), "tolerance"),
+                                ((self.fluid, "--energy", "inf"), "energy"), ((self.fluid, "--energy", "deep"), ("deep", "mean")),
+                                ((self.fluid, "--method", "newton"), ("newton", "usher, usher-indirect")),
+                                ((self.fluid, "--species", "Xx"), ("Xx", "Ar")), ((self.fluid, "--most-trials", "0"), "trials"),
+                                ((self.fluid, "--largest-step", "0"), "step"), ((self.fluid, "--removal", "all"), ("all", "random")),
+                                ((self.fluid, "--temperature", "-1"), "temperature"), ((empty,), "empty"), ((), "FILE"),
+                                (("--scan", "--states", "0.4"), "density:temperature"), (("--scan", "--states", "-0.4:1"), "density"),
+                                (("--scan", "--states", "0.4:0"), "temperature"), (("--scan", "--methods", "usher,,descent"), "--methods"),
+                                (("--scan", "--energy", "mu"), "Widom"), (("--densify", "0.3"), "density"), (("--densify", "nan"), "density"),
+                                (("--densify", "0.5", "--rate", "50"), "rate"), (("--densify", "0.5", "--time-step", "1"), "time step"),
+                                ((self.fluid, "--precision", "mixed"), "precision"), ((self.fluid, "--plot"), "--plot")):
+            with self.subTest(arguments):
+                self.refused_cleanly("insert", *self.TAIL, *arguments, says=says)
+        self.refused_cleanly("insert", self.fluid, "--model", "hard-sphere", says="hard spheres")
+
+    def test_a_scan_reports_every_combination_and_state(self):
+        out = self.folder / "out"
+        run = self.done(*self.SCAN, "--out", out)
+        self.assertEqual((len(run["scan"]), len(run["states"]), len(run["holes"]), run["failures"]), (12, 2, 4, 0))
+        for row in run["scan"]:
+            self.assertGreaterEqual(row["evaluations"], row["trials"])
+            self.assertLessEqual(abs(row["error"]), row["tolerance"])
+            self.assertEqual(row["candidates"] > 0, row["method"] == "screened")
+        rows = list(csv.DictReader((out / "scan.csv").read_text().splitlines()))
+        self.assertEqual([float(r["evaluations"]) for r in rows], [r["evaluations"] for r in run["scan"]])
+        pairs = list(csv.DictReader((out / "errors.csv").read_text().splitlines()))
+        self.assertGreater(len(pairs), 20)
+
+    def test_growth_ends_at_the_density_asked_for_and_keeps_account_of_energy(self):
+        run = self.done(*self.GROWTH)
+        self.assertEqual((run["particles"], run["inserted"], run["failures"], len(run["densification"])), (80, 16, 0, 4))
+        densities = [row["density"] for row in run["densification"]]
+        self.assertEqual(densities, sorted(densities))
+        for row in run["densification"]:
+            self.assertAlmostEqual(row["energy"], 1.5 * row["temperature"] + row["excess_energy"], delta=1e-9)
+            self.assertLess(abs(row["drift"]), 0.1)
+
+
 class Verify(ProgramTest):
     def test_every_kernel_passes_on_every_instruction_set(self):
         junit = self.folder / "junit.xml"
@@ -965,6 +1070,21 @@ class Resuming(ProgramTest):
         self.assertEqual(process.wait(), -signal.SIGKILL)
         self.assertFalse((out / "result.json").exists())
         self.assert_resumes_to(out, whole, "endpoints")
+
+    def test_interrupted_scans_and_growth_resume_to_the_same_bits(self):
+        for name, arguments, checkpoint in (
+                ("scan", with_options(Insertions.SCAN, "--states", "0.4:2.5,0.5:2,0.6:2", "--equilibration-steps", "20000"), "scan.h5"),
+                ("growth", with_options(Insertions.GROWTH, "--particles", "256", "--rows", "20", "--rate", "0.02"), "densification.h5")):
+            whole, out, killed = (self.folder / f"{name}-{which}" for which in ("whole", "cut", "killed"))
+            self.done(*arguments, "--out", whole)
+            result = self.interrupt(*arguments, out=out, after=f"checkpoint/{checkpoint}", with_signal=signal.SIGTERM)
+            self.assertEqual(result["outcome"], "interrupted")
+            self.assert_resumes_to(out, whole, "insert", times=2)
+            process = self.start(*arguments, out=killed)
+            self.wait_for(process, killed / "checkpoint" / checkpoint)
+            process.kill()
+            process.wait()
+            self.assert_resumes_to(killed, whole, "insert")
 
     def test_interrupted_and_killed_paths_resume_to_the_same_bits(self):
         for method in ("contour", "escape"):

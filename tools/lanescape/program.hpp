@@ -164,6 +164,7 @@ Subcommand add_overlap(CLI::App& app);
 Subcommand add_endpoints(CLI::App& app);
 Subcommand add_path(CLI::App& app);
 Subcommand add_diffusion(CLI::App& app);
+Subcommand add_insert(CLI::App& app);
 Subcommand add_verify(CLI::App& app);
 
 // Watches for SIGINT and SIGTERM, and draws a progress bar with rate and remaining time where stderr is a terminal.

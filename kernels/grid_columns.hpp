@@ -1,0 +1,58 @@
+#pragma once
+
+#include "isa.hpp"
+#include "simd_ops.hpp"
+#include "views.hpp"
+
+// Which cells of a grid a sphere reaches, column by column: how far along z it reaches into a column comes from one square root for
+// a vector of columns.
+namespace lanescape::kernels::LANESCAPE_ISA {
+
+// What single precision may lose of a coordinate, and rounding of a cell: coordinates are up to the grid's extent, and the
+// difference of two loses 2^-23 of it when both are rounded.
+inline double grid_margin(const GridShape& grid, double reach) noexcept {
+  const auto length = [&](std::size_t axis) { return grid.edge[axis] * static_cast<double>(grid.cells[axis]); };
+  return 3e-7 * (reach + length(0) + length(1) + length(2));
+}
+
+inline std::size_t cell_along(const GridShape& grid, std::size_t axis, double x) noexcept {
+  const double cell = (x - grid.low[axis]) * grid.cells_per_length[axis], last = static_cast<double>(grid.cells[axis] - 1);
+  return cell > 0.0 ? static_cast<std::size_t>(cell < last ? cell : last) : 0;
+}
+
+// How far a position is from cells along an axis, squared.
+inline Vector gap_squared(const GridShape& grid, std::size_t axis, double position, Vector cells) noexcept {
+  const Vector edge = broadcast(grid.edge[axis]);
+  const Vector beyond_face = broadcast(position - grid.low[axis]) - cells * edge;
+  const Vector gap = maximum(broadcast(0.0), maximum(broadcast(0.0) - beyond_face, beyond_face - edge));
+  return gap * gap;
+}
+
+// Calls visit(column, low, high) for every column within reach of a position, x cell * cells[1] + y cell, with the first and the
+// last of its cells that are; ends where a visit returns false, and then returns false.
+template <class Visit>
+inline bool for_each_column(const GridShape& grid, const double* position, double reach, Visit visit) noexcept {
+  const std::size_t first_x = cell_along(grid, 0, position[0] - reach), last_x = cell_along(grid, 0, position[0] + reach);
+  const std::size_t first_y = cell_along(grid, 1, position[1] - reach), last_y = cell_along(grid, 1, position[1] + reach);
+  const Vector z = broadcast((position[2] - grid.low[2]) * grid.cells_per_length[2]);
+  const Vector cells_per_length = broadcast(grid.cells_per_length[2]), last_z = broadcast(static_cast<double>(grid.cells[2] - 1));
+  alignas(64) std::int32_t low[lanes], high[lanes];
+  for (std::size_t cy = first_y; cy <= last_y; cy += lanes) {
+    const Vector gap_y = gap_squared(grid, 1, position[1], count_from(static_cast<double>(cy)));
+    const unsigned columns = bits(lanes_below(static_cast<std::ptrdiff_t>(last_y - cy + 1)));
+    for (std::size_t cx = first_x; cx <= last_x; ++cx) {
+      const Vector gap_x = gap_squared(grid, 0, position[0], broadcast(static_cast<double>(cx)));
+      const Vector left = broadcast(reach * reach) - (gap_x + gap_y);
+      const Vector half = square_root(maximum(left, broadcast(0.0))) * cells_per_length;
+      store_truncated(low, maximum(z - half, broadcast(0.0)));
+      store_truncated(high, minimum(z + half, last_z));
+      for (unsigned mask = columns & ~bits(less(left, broadcast(0.0))); mask != 0; mask &= mask - 1U) {
+        const auto c = static_cast<std::size_t>(__builtin_ctz(mask));
+        if (!visit(cx * grid.cells[1] + cy + c, static_cast<std::size_t>(low[c]), static_cast<std::size_t>(high[c]))) return false;
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace lanescape::kernels::LANESCAPE_ISA

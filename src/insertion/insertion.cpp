@@ -1,0 +1,228 @@
+#include "insertion/insertion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "insertion/search.hpp"
+
+namespace lanescape {
+namespace {
+
+constexpr std::size_t remembered_iterations = 100;
+constexpr std::size_t remembered_errors = 30;
+// |U0| below this has no relative error.
+constexpr double least_relative_target = 1e-6;
+// Searches that run at the same time. Not the number of threads, which no result may depend on.
+constexpr std::size_t batch = 32;
+
+template <class Word, std::size_t n>
+Word parse_word(std::string_view word, const char* what, const std::array<Word, n>& words) {
+  std::string allowed;
+  for (const Word w : words) {
+    if (word == to_string(w)) return w;
+    allowed += (allowed.empty() ? "" : ", ") + std::string(to_string(w));
+  }
+  throw_bad_input(fmt::format("{} '{}' is not allowed: {}", what, word, allowed));
+}
+
+void remember(std::vector<double>& values, double value, std::size_t most) {
+  values.push_back(value);
+  if (values.size() > most) values.erase(values.begin());
+}
+
+}  // namespace
+
+const char* to_string(InsertionMethod method) {
+  switch (method) {
+    case InsertionMethod::usher:
+      return "usher";
+    case InsertionMethod::usher_indirect:
+      return "usher-indirect";
+    case InsertionMethod::usher_near:
+      return "usher-near";
+    case InsertionMethod::screened:
+      return "screened";
+    case InsertionMethod::descent:
+      return "descent";
+  }
+  return "";
+}
+
+InsertionMethod parse_insertion_method(std::string_view word) {
+  using enum InsertionMethod;
+  return parse_word(word, "method", std::array{usher, usher_indirect, usher_near, screened, descent});
+}
+
+const char* to_string(ErrorMeasure measure) {
+  switch (measure) {
+    case ErrorMeasure::relative:
+      return "relative";
+    case ErrorMeasure::absolute:
+      return "absolute";
+    case ErrorMeasure::running_mean:
+      return "running-mean";
+  }
+  return "";
+}
+
+ErrorMeasure parse_error_measure(std::string_view word) {
+  using enum ErrorMeasure;
+  return parse_word(word, "measure of the error", std::array{relative, absolute, running_mean});
+}
+
+const char* to_string(RegionWall wall) { return wall == RegionWall::reflect ? "reflect" : "well"; }
+
+RegionWall parse_region_wall(std::string_view word) {
+  return parse_word(word, "wall of a region", std::array{RegionWall::reflect, RegionWall::well});
+}
+
+void Region::check(const Box& box) const {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (!(low[axis] >= 0.0 && low[axis] < high[axis] && high[axis] <= box.length[axis]))
+      throw_bad_input(fmt::format("region from {} to {} along {} is not allowed: 0 <= from < to <= {} in this box", low[axis],
+                                  high[axis], "xyz"[axis], box.length[axis]));
+}
+
+bool Region::contains(const std::array<double, 3>& position) const {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (!(position[axis] >= low[axis] && position[axis] <= high[axis])) return false;
+  return true;
+}
+
+void InsertionOptions::check(const Box& box) const {
+  const auto positive = [](const char* what, double value) {
+    if (!(value > 0.0) || !std::isfinite(value))
+      throw_bad_input(fmt::format("{} {} is not allowed: it must be finite and above 0", what, value));
+  };
+  if (!std::isfinite(target)) throw_bad_input(fmt::format("target energy {} is not allowed: it must be finite", target));
+  positive("tolerance", tolerance);
+  if (largest_step) positive("largest step", *largest_step);
+  positive("traverse step", traverse_step);
+  positive("overlap energy", overlap_energy);
+  positive("clear energy", clear_energy);
+  // Else the step from an overlap would lead further in.
+  if (const double least = std::pow(4.0 / overlap_energy, 1.0 / 12.0); !(contact > least) || !std::isfinite(contact))
+    throw_bad_input(
+        fmt::format("contact distance {} is not allowed: above {}, where repulsion alone is the overlap energy", contact, least));
+  if (most_iterations && *most_iterations == 0) throw_bad_input("most iterations must be at least 1");
+  if (most_trials == 0 || most_trials > 1'000'000'000)
+    throw_bad_input(fmt::format("most trials {} is not allowed: from 1 to 1000000000", most_trials));
+  if (region) region->check(box);
+}
+
+ErrorMeasure InsertionOptions::measure_in_force() const {
+  return std::abs(target) < least_relative_target ? ErrorMeasure::absolute : measure;
+}
+
+void InsertionHistory::add(const Insertion& insertion) {
+  if (!insertion.found) return;
+  remember(iterations_, static_cast<double>(insertion.iterations), remembered_iterations);
+  remember(errors_, std::abs(insertion.error), remembered_errors);
+}
+
+double InsertionHistory::mean_iterations() const {
+  if (iterations_.empty()) return 0.0;
+  return std::accumulate(iterations_.begin(), iterations_.end(), 0.0) / static_cast<double>(iterations_.size());
+}
+
+double InsertionHistory::allowed_error(double tolerance) const {
+  const std::size_t before = std::min(errors_.size(), remembered_errors - 1);
+  const double sum = std::accumulate(errors_.end() - static_cast<std::ptrdiff_t>(before), errors_.end(), 0.0);
+  // One hundredth is kept for insertions that find nothing left: of thirty such the mean is still within the tolerance.
+  return std::max(0.99 * tolerance * static_cast<double>(before + 1) - sum, 0.01 * tolerance);
+}
+
+void InsertionHistory::exchange(Archive& archive) {
+  archive.field("searches", searches_);
+  archive.field("recent_iterations", iterations_);
+  archive.field("recent_errors", errors_);
+}
+
+namespace {
+
+std::uint64_t iteration_limit(const InsertionOptions& options, const InsertionHistory& history) {
+  return options.most_iterations.value_or(
+      std::max<std::uint64_t>(100, static_cast<std::uint64_t>(4.0 * history.mean_iterations())));
+}
+
+double allowed_difference(const InsertionOptions& options, const InsertionHistory& history) {
+  switch (options.measure_in_force()) {
+    case ErrorMeasure::absolute:
+      return options.tolerance;
+    case ErrorMeasure::relative:
+      return options.tolerance * std::abs(options.target);
+    case ErrorMeasure::running_mean:
+      return history.allowed_error(options.tolerance) * std::abs(options.target);
+  }
+  return 0.0;
+}
+
+void check_fluid(const ProbeField& fluid, const InsertionOptions& options) {
+  options.check(fluid.box());
+  if (fluid.size() == 0) throw_bad_input("insertion into an empty fluid is not allowed: at least one particle is needed");
+}
+
+// The next searches, each as if it were alone.
+std::vector<InsertionSearch> search_batch(const ProbeField& fluid, const InsertionOptions& options, std::size_t left,
+                                          InsertionHistory& history, int threads) {
+  // A mean over the insertions before needs these to have ended.
+  const std::size_t count = std::min(left, options.measure_in_force() == ErrorMeasure::running_mean ? 1 : batch);
+  std::vector<InsertionSearch> searches;
+  for (std::size_t k = 0; k < count; ++k)
+    searches.emplace_back(fluid, options, history.next_search(), allowed_difference(options, history),
+                          iteration_limit(options, history));
+  const int parts = std::min(threads, static_cast<int>(count));
+  for_each_part(parts, [&](int part) {
+    for (std::size_t k = static_cast<std::size_t>(part); k < count; k += static_cast<std::size_t>(parts)) searches[k].run();
+  });
+  return searches;
+}
+
+}  // namespace
+
+std::vector<Insertion> find_places(const ProbeField& fluid, const InsertionOptions& options, std::size_t count,
+                                   InsertionHistory& history, int threads) {
+  check_fluid(fluid, options);
+  std::vector<Insertion> insertions;
+  while (insertions.size() < count)
+    for (const InsertionSearch& search : search_batch(fluid, options, count - insertions.size(), history, threads)) {
+      insertions.push_back(search.result());
+      history.add(insertions.back());
+    }
+  return insertions;
+}
+
+std::vector<Insertion> insert_particles(ProbeField& fluid, const InsertionOptions& options, std::size_t count,
+                                        InsertionHistory& history, int threads) {
+  check_fluid(fluid, options);
+  std::vector<Insertion> insertions;
+  std::vector<std::array<double, 3>> put_in;  // of the present batch
+  while (insertions.size() < count) {
+    put_in.clear();
+    const double constant = fluid.constant();
+    for (InsertionSearch& search : search_batch(fluid, options, count - insertions.size(), history, threads)) {
+      search.follow(put_in, fluid.constant() - constant);
+      insertions.push_back(search.result());
+      history.add(insertions.back());
+      if (!insertions.back().found) continue;
+      fluid.insert(insertions.back().position, fluid.species());
+      put_in.push_back(insertions.back().position);
+    }
+  }
+  return insertions;
+}
+
+std::array<double, 3> maxwellian_velocity(const CounterRandom& random, std::uint64_t search, double temperature, double mass,
+                                          const std::array<double, 3>& mean) {
+  std::array<double, 3> velocity = mean;
+  for (std::uint32_t axis = 0; axis < 3; ++axis)
+    velocity[axis] += std::sqrt(temperature / mass) * random.normal(search, 0, 3 + axis);  // draws 0 to 2 are its places
+  return velocity;
+}
+
+}  // namespace lanescape

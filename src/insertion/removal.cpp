@@ -1,0 +1,48 @@
+#include "insertion/removal.hpp"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace lanescape {
+
+const char* to_string(RemovalRule rule) { return rule == RemovalRule::random ? "random" : "least-disturbance"; }
+
+RemovalRule parse_removal_rule(std::string_view word) {
+  for (const RemovalRule rule : {RemovalRule::random, RemovalRule::least_disturbance})
+    if (word == to_string(rule)) return rule;
+  throw_bad_input("removal '" + std::string(word) + "' is not allowed: random, least-disturbance");
+}
+
+std::optional<Removal> choose_removal(const LennardJonesModel& model, const Configuration& fluid, int species, RemovalRule rule,
+                                      const std::optional<Region>& region, double energy, const CounterRandom& random,
+                                      std::uint64_t number, Isa isa) {
+  std::vector<std::size_t> there;
+  for (std::size_t i = 0; i < fluid.size(); ++i) {
+    std::array<double, 3> home = fluid.position(i);
+    for (std::size_t axis = 0; axis < 3; ++axis) home[axis] = fluid.box.wrapped(axis, home[axis]);
+    if (fluid.species[i] == species && (!region || region->contains(home))) there.push_back(i);
+  }
+  if (there.empty()) return std::nullopt;
+  ProbeField field(model, fluid, species, kernel_table(isa));
+  const auto energy_of = [&](std::size_t i) {
+    field.remove(fluid.position(i), species);
+    const double falls_by = field.energy(fluid.position(i));
+    field.insert(fluid.position(i), species);
+    return falls_by;
+  };
+  if (rule == RemovalRule::random) {
+    const std::size_t chosen = there[random.below(static_cast<std::uint32_t>(there.size()), number, 0, 6)];
+    return Removal{chosen, energy_of(chosen)};
+  }
+  Removal best{there.front(), energy_of(there.front())};
+  for (const std::size_t i : there) {
+    const Removal other{i, energy_of(i)};
+    if (std::abs(other.energy - energy) < std::abs(best.energy - energy)) best = other;
+  }
+  return best;
+}
+
+}  // namespace lanescape

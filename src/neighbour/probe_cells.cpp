@@ -1,0 +1,148 @@
+#include "neighbour/probe_cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lanescape {
+namespace {
+
+// As many as fill a vector in the middle column of a probe's reach: measured, as are the room and the height of cells.
+constexpr double points_per_run = 8.0;
+constexpr double cells_per_reach = 6.0;
+
+std::size_t cell_along(const kernels::GridShape& shape, std::size_t axis, double x) {
+  const double cell = (x - shape.low[axis]) * shape.cells_per_length[axis];
+  if (!(cell > 0.0)) return 0;
+  return cell < static_cast<double>(shape.cells[axis]) ? static_cast<std::size_t>(cell) : shape.cells[axis] - 1;
+}
+
+}  // namespace
+
+ProbeCells::ProbeCells(const Box& box, double reach, std::size_t expected) : box_(box), reach_(reach) {
+  const double density = static_cast<double>(std::max<std::size_t>(expected, 1)) / box.volume();
+  const double width = std::clamp(std::sqrt(points_per_run / (2.0 * reach * density)), reach / 4.0, reach);
+  const std::array<double, 3> edges = {width, width, std::max(reach / cells_per_reach, 0.25 / (width * width * density))};
+  std::size_t columns = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double length = box.length[axis] + 2.0 * reach;
+    shape_.cells[axis] = std::max<std::size_t>(1, static_cast<std::size_t>(length / edges[axis]));
+    shape_.low[axis] = -reach;
+    shape_.edge[axis] = length / static_cast<double>(shape_.cells[axis]);
+    shape_.cells_per_length[axis] = 1.0 / shape_.edge[axis];
+    if (axis < 2) columns *= shape_.cells[axis];
+  }
+  limit_.resize(columns);
+  assign({});
+}
+
+ProbeCells::Place ProbeCells::place_of(const Point& point) const {
+  return {cell_along(shape_, 0, point[0]) * shape_.cells[1] + cell_along(shape_, 1, point[1]), cell_along(shape_, 2, point[2])};
+}
+
+template <class Visit>
+void ProbeCells::for_each_image(const Point& point, Visit visit) const {
+  std::array<int, 3> least{}, most{};
+  Point home{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double length = box_.length[axis];
+    home[axis] = box_.wrapped(axis, point[axis]);
+    least[axis] = -static_cast<int>(std::floor((home[axis] + reach_) / length));
+    most[axis] = static_cast<int>(std::floor((length + reach_ - home[axis]) / length));
+  }
+  for (int a = least[0]; a <= most[0]; ++a)
+    for (int b = least[1]; b <= most[1]; ++b)
+      for (int c = least[2]; c <= most[2]; ++c)
+        visit(Point{home[0] + a * box_.length[0], home[1] + b * box_.length[1], home[2] + c * box_.length[2]});
+}
+
+void ProbeCells::assign(const std::vector<Point>& points) {
+  std::vector<Point> images;
+  for (const Point& point : points) for_each_image(point, [&](const Point& image) { images.push_back(image); });
+  size_ = points.size();
+  lay_out(images);
+}
+
+// A counting sort.
+void ProbeCells::lay_out(const std::vector<Point>& images) {
+  const std::size_t columns = limit_.size(), stride = shape_.cells[2] + 1;
+  first_.assign(columns * stride, 0);
+  for (const Point& image : images) {
+    const Place place = place_of(image);
+    ++first_[place.column * stride + place.cell];
+  }
+  room_ = 4 + images.size() / columns / 4;
+  // From counts to ends; points are then put in from the last to the first.
+  std::uint32_t next = 0;
+  for (std::size_t column = 0; column < columns; ++column) {
+    for (std::size_t cell = 0; cell < stride; ++cell) next = first_[column * stride + cell] += next;
+    next += static_cast<std::uint32_t>(room_);
+    limit_[column] = next;
+  }
+  for (auto& column : columns_) column.assign(next + kernels::slot_padding, 0.0);
+  for (std::size_t k = images.size(); k-- > 0;) {
+    const Place place = place_of(images[k]);
+    const std::uint32_t at = --first_[place.column * stride + place.cell];
+    for (std::size_t axis = 0; axis < 3; ++axis) columns_[axis][at] = images[k][axis];
+  }
+}
+
+std::vector<ProbeCells::Point> ProbeCells::all_images() const {
+  std::vector<Point> images;
+  const std::size_t stride = shape_.cells[2] + 1;
+  for (std::size_t column = 0; column < limit_.size(); ++column)
+    for (std::uint32_t k = first_[column * stride]; k < first_[column * stride + stride - 1]; ++k)
+      images.push_back({columns_[0][k], columns_[1][k], columns_[2][k]});
+  return images;
+}
+
+void ProbeCells::insert(const Point& point) {
+  for_each_image(point, [&](const Point& image) { insert_image(image); });
+  ++size_;
+}
+
+void ProbeCells::insert_image(const Point& image) {
+  const Place place = place_of(image);
+  std::uint32_t* first = first_.data() + place.column * (shape_.cells[2] + 1);
+  if (first[shape_.cells[2]] == limit_[place.column]) {
+    std::vector<Point> images = all_images();
+    images.push_back(image);
+    lay_out(images);
+    return;
+  }
+  const std::uint32_t at = first[place.cell + 1], end = first[shape_.cells[2]];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double* x = columns_[axis].data();
+    std::move_backward(x + at, x + end, x + end + 1);
+    x[at] = image[axis];
+  }
+  for (std::size_t cell = place.cell + 1; cell <= shape_.cells[2]; ++cell) ++first[cell];
+}
+
+bool ProbeCells::remove(const Point& point) {
+  std::size_t removed = 0;
+  for_each_image(point, [&](const Point& image) {
+    const Place place = place_of(image);
+    std::uint32_t* first = first_.data() + place.column * (shape_.cells[2] + 1);
+    std::uint32_t at = first[place.cell];
+    const std::uint32_t cell_end = first[place.cell + 1], end = first[shape_.cells[2]];
+    while (at < cell_end && Point{columns_[0][at], columns_[1][at], columns_[2][at]} != image) ++at;
+    if (at == cell_end) return;
+    for (auto& column : columns_) std::move(column.begin() + at + 1, column.begin() + end, column.begin() + at);
+    for (std::size_t cell = place.cell + 1; cell <= shape_.cells[2]; ++cell) --first[cell];
+    ++removed;
+  });
+  if (removed > 0) --size_;
+  return removed > 0;
+}
+
+kernels::ProbeSpecies ProbeCells::view() const {
+  kernels::ProbeSpecies view{};
+  static_cast<kernels::GridShape&>(view) = shape_;
+  view.first = first_.data();
+  view.x = columns_[0].data();
+  view.y = columns_[1].data();
+  view.z = columns_[2].data();
+  return view;
+}
+
+}  // namespace lanescape

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/aligned_array.hpp"
+#include "core/box.hpp"
+#include "views.hpp"
+
+namespace lanescape {
+
+// Points of one species of a periodic box and those of their images that a probe in the box can feel, by the columns of a grid.
+// Points can be put in and taken out, at the cost of moving what lies behind them in their column.
+class ProbeCells {
+ public:
+  using Point = std::array<double, 3>;
+
+  // `reach`: how far a probe feels [sigma]; `expected`: about how many points there will be in the box.
+  ProbeCells(const Box& box, double reach, std::size_t expected);
+
+  // Takes these points, wrapped or not, in place of all others. O(N).
+  void assign(const std::vector<Point>& points);
+  void insert(const Point& point);
+  // Takes out a point that is in; false where there is none with these coordinates, to the bit.
+  bool remove(const Point& point);
+
+  std::size_t size() const { return size_; }  // points in the box
+  // For the kernels; the pair is the caller's to set. Valid until the next change.
+  kernels::ProbeSpecies view() const;
+
+ private:
+  struct Place {
+    std::size_t column, cell;
+  };
+  Place place_of(const Point& point) const;
+  // Calls visit(image) for each image of a point that lies in the grid, itself first.
+  template <class Visit>
+  void for_each_image(const Point& point, Visit visit) const;
+  void insert_image(const Point& image);
+  // Moves all points into columns with room for `room_` more each.
+  void lay_out(const std::vector<Point>& images);
+  std::vector<Point> all_images() const;
+
+  Box box_;
+  double reach_;
+  std::size_t size_ = 0;
+  kernels::GridShape shape_{};
+  std::size_t room_ = 0;
+  AlignedVector<std::uint32_t> first_;  // cells[2] + 1 per column
+  std::vector<std::uint32_t> limit_;    // of each column's points
+  std::array<AlignedArray, 3> columns_;
+};
+
+}  // namespace lanescape

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/archive.hpp"
+#include "core/run_monitor.hpp"
+#include "dispatch/isa.hpp"
+#include "insertion/insertion.hpp"
+#include "run/checkpoint.hpp"
+#include "run/moving_fluid.hpp"
+
+namespace lanescape {
+
+// A periodic fluid whose density grows by insertion at constant energy per particle, with no thermostat ([U] IV.A, figure 3):
+// places have the fluid's mean excess energy per particle, velocities are Maxwell's at its temperature.
+struct DensificationOptions {
+  double final_density = 0.8;  // [sigma^-3]
+  double rate = 0.005;         // d rho/dt
+  double time_step = 0.002;    // [sigma sqrt(m/epsilon)]
+  std::uint64_t rows = 40;     // of the record, equal steps of density
+  InsertionOptions insertion;  // its target is not looked at
+  int species = 0;             // of what is inserted
+  int threads = 1;
+
+  // Throws Error(bad_input) naming what is out of range; a rate above one insertion per volume of (3 sigma)^3 and collision time
+  // 1/(4 rho sqrt(pi T)) is.
+  void check(const FluidState& start, double temperature) const;
+};
+
+// Means over a step of density.
+struct DensificationRow {
+  double time = 0.0, density = 0.0, temperature = 0.0, pressure = 0.0;
+  double excess_energy = 0.0, energy = 0.0;  // per particle [epsilon]
+  double inserted_energy = 0.0;              // per inserted particle, the kinetic part included [epsilon]
+  double evaluations = 0.0;                  // per insertion
+  // What the total energy differs by from where it started and all that insertions brought, per particle: the integrator's error
+  // and that of the truncation.
+  double drift = 0.0;
+};
+
+struct DensificationResult {
+  std::vector<DensificationRow> rows;
+  std::uint64_t failures = 0;
+  FluidState final_state;
+  std::uint64_t inserted = 0;
+  bool interrupted = false;
+  double seconds = 0.0;
+};
+
+// Ends early at the first insertion that finds no place.
+DensificationResult run_densification(const LennardJonesModel& model, const FluidState& start, const DensificationOptions& options,
+                                      Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor);
+
+}  // namespace lanescape

@@ -1,0 +1,286 @@
+#include "run/insertion_scan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "configuration/lattice.hpp"
+#include "core/error.hpp"
+#include "insertion/holes.hpp"
+#include "insertion/search.hpp"
+#include "interaction/lennard_jones.hpp"
+#include "interaction/probe_field.hpp"
+
+namespace lanescape {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+// Rows of plain numbers, as they are archived.
+struct ScanState {
+  std::vector<double> states, costs, holes, errors;
+  std::uint64_t done = 0;  // states
+  double seconds = 0.0;
+
+  void exchange(Archive& archive) {
+    archive.field("states", states);
+    archive.field("costs", costs);
+    archive.field("holes", holes);
+    archive.field("errors", errors);
+    archive.field("done", done);
+    archive.field("run_seconds", seconds);
+  }
+};
+
+// One way to look for places, over all configurations of a state.
+struct Combination {
+  InsertionOptions options;
+  InsertionHistory history;
+  std::vector<Insertion> places;
+  double target_sum = 0.0, seconds = 0.0;
+
+  void add_to(std::vector<double>& costs, const InsertionScanOptions::State& at, double configurations) const {
+    double evaluations = 0.0, squares = 0.0, trials = 0.0, candidates = 0.0, distance = 0.0, largest = 0.0, error = 0.0,
+           found = 0.0;
+    for (const Insertion& place : places) {
+      const auto n = static_cast<double>(place.evaluations);
+      evaluations += n;
+      squares += n * n;
+      trials += static_cast<double>(place.trials);
+      candidates += static_cast<double>(place.candidates);
+      if (!place.found) continue;
+      found += 1.0;
+      distance += place.distance;
+      largest = std::max(largest, place.distance);
+      error += place.error;
+    }
+    const double n = static_cast<double>(places.size()), mean = evaluations / n;
+    const double deviation = std::sqrt(std::max(0.0, squares / n - mean * mean)), per_found = 1.0 / std::max(1.0, found);
+    costs.insert(costs.end(),
+                 {at.density, at.temperature, static_cast<double>(options.method), options.tolerance,
+                  options.largest_step.value_or(0.0), target_sum / configurations, mean, deviation / std::sqrt(n), deviation,
+                  trials / n, candidates / n, distance * per_found, largest, error * per_found, n - found, seconds / n});
+  }
+};
+
+// Mean and standard error over configurations.
+struct Samples {
+  std::vector<double> values;
+  double mean() const { return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()); }
+  double error() const {
+    if (values.size() < 2) return 0.0;
+    double squares = 0.0;
+    for (const double v : values) squares += (v - mean()) * (v - mean());
+    const double n = static_cast<double>(values.size());
+    return std::sqrt(squares / (n * (n - 1.0)));
+  }
+};
+
+class StateScan {
+ public:
+  StateScan(const LennardJonesModel& model, const InsertionScanOptions& options, Isa isa, std::size_t which)
+      : model_(&model), options_(&options), isa_(isa), at_(options.states[which]), holes_(options.iso_energies.size()) {
+    for (const InsertionMethod method : options.methods)
+      for (const double tolerance : options.tolerances)
+        for (const auto& step : options.largest_steps) {
+          Combination combination{options.insertion, {}, {}};
+          combination.options.method = method;
+          combination.options.tolerance = tolerance;
+          if (step) combination.options.largest_step = step;
+          combinations_.push_back(std::move(combination));
+        }
+  }
+
+  // False if it was stopped on the way.
+  bool run(ScanState& out, RunMonitor& monitor) {
+    MovingFluid fluid(*model_, fluid_on_lattice(*model_, options_->particles, at_.density, at_.temperature, options_->seed),
+                      options_->time_step, isa_, options_->threads);
+    equilibrate(fluid, at_.temperature, options_->equilibration_steps);
+    for (std::uint64_t c = 0; c < options_->configurations; ++c) {
+      equilibrate(fluid, at_.temperature, options_->between_steps);
+      look_at(fluid, out);
+      monitor.progress("scan",
+                       static_cast<double>(out.done) + static_cast<double>(c + 1) / static_cast<double>(options_->configurations),
+                       static_cast<double>(options_->states.size()));
+      if (monitor.stop_requested()) return false;
+    }
+    out.states.insert(out.states.end(), {at_.density, at_.temperature, temperature_.mean(), excess_.mean(), pressure_.mean(),
+                                         widom_.values.empty() ? 0.0 : widom_.mean(), widom_.error()});
+    for (const Combination& combination : combinations_)
+      combination.add_to(out.costs, at_, static_cast<double>(options_->configurations));
+    for (std::size_t k = 0; k < holes_.size(); ++k) add_holes(out, k);
+    return true;
+  }
+
+ private:
+  void look_at(MovingFluid& fluid, ScanState& out) {
+    const MovingFluid::Potential potential = fluid.potential();
+    const Configuration configuration = fluid.state().configuration;
+    const double excess = potential.energy / static_cast<double>(configuration.size());
+    temperature_.values.push_back(fluid.temperature());
+    pressure_.values.push_back(potential.pressure);
+    excess_.values.push_back(excess);
+    const ProbeField field(*model_, configuration, options_->species, kernel_table(isa_));
+    if (options_->widom_probes > 0) widom_.values.push_back(widom(field));
+    for (Combination& combination : combinations_) {
+      InsertionOptions& with = combination.options;
+      if (options_->target == ScanTarget::mean_excess_energy) with.target = excess;
+      if (options_->target == ScanTarget::chemical_potential) with.target = widom_.values.back();
+      combination.target_sum += with.target;
+      const auto start = Clock::now();
+      for (const Insertion& place : find_places(field, with, options_->count, combination.history, options_->threads))
+        combination.places.push_back(place);
+      combination.seconds += seconds_since(start);
+    }
+    look_at_holes(field, excess);
+    trace_errors(field, excess, out);
+  }
+
+  // -T ln <exp(-U/T)> over random places: Widom, J. Chem. Phys. 39, 2808 (1963), doi 10.1063/1.1734110.
+  double widom(const ProbeField& field) {
+    constexpr std::size_t at_once = 4096;
+    const CounterRandom random(options_->seed, RandomStream::sites);
+    std::vector<double> positions, energies;
+    double sum = 0.0;
+    for (std::uint64_t done = 0; done < options_->widom_probes; done += energies.size()) {
+      energies.resize(std::min<std::uint64_t>(at_once, options_->widom_probes - done));
+      positions.clear();
+      for (std::size_t k = 0; k < energies.size(); ++k) {
+        const auto place = random.uniform_point(widom_.values.size() + 1, static_cast<std::uint32_t>(done + k));
+        for (std::size_t axis = 0; axis < 3; ++axis) positions.push_back(place[axis] * field.box().length[axis]);
+      }
+      field.energies(positions, energies);
+      for (const double energy : energies) sum += std::exp(-energy / at_.temperature);
+    }
+    return -at_.temperature * std::log(sum / static_cast<double>(options_->widom_probes));
+  }
+
+  // Around places of the mean excess energy, as the source does.
+  void look_at_holes(const ProbeField& field, double excess) {
+    if (options_->holes == 0) return;
+    InsertionOptions with = options_->insertion;
+    with.target = excess;
+    for (const Insertion& place : find_places(field, with, options_->holes, hole_history_, options_->threads))
+      for (std::size_t k = 0; k < holes_.size() && place.found; ++k)
+        if (const auto hole = measure_hole(field, place.position, options_->iso_energies[k])) holes_[k].push_back(*hole);
+  }
+
+  void add_holes(ScanState& out, std::size_t which) const {
+    const std::vector<Hole>& holes = holes_[which];
+    const auto mean = [&](double Hole::* member) {
+      double sum = 0.0;
+      for (const Hole& hole : holes) sum += hole.*member;
+      return holes.empty() ? 0.0 : sum / static_cast<double>(holes.size());
+    };
+    out.holes.insert(out.holes.end(),
+                     {at_.density, at_.temperature, options_->iso_energies[which], static_cast<double>(holes.size()),
+                      mean(&Hole::mean_radius), mean(&Hole::semi_minor), mean(&Hole::semi_major), mean(&Hole::anisotropy),
+                      mean(&Hole::eccentricity), mean(&Hole::open_directions)});
+  }
+
+  void trace_errors(const ProbeField& field, double excess, ScanState& out) {
+    InsertionOptions with = options_->insertion;
+    with.target = excess;
+    for (std::uint64_t k = 0; k < options_->traced_searches; ++k) {
+      std::vector<double> errors;
+      std::uint64_t trial = 0;
+      InsertionSearch search(field, with, traced_++, 1e-12 * std::abs(excess), 100,
+                             [&](std::uint64_t now, const InsertionSearch::Point&, double energy) {
+                               if (now != trial) errors.clear();
+                               trial = now;
+                               errors.push_back(std::abs(energy - excess) / std::abs(excess));
+                             });
+      search.run();
+      // Of the trial that ended well.
+      for (std::size_t j = 0; j + 1 < errors.size() && search.result().found; ++j)
+        out.errors.insert(out.errors.end(), {at_.density, errors[j], errors[j + 1]});
+    }
+  }
+
+  const LennardJonesModel* model_;
+  const InsertionScanOptions* options_;
+  Isa isa_;
+  InsertionScanOptions::State at_;
+  std::vector<Combination> combinations_;
+  Samples temperature_, pressure_, excess_, widom_;
+  InsertionHistory hole_history_;
+  std::vector<std::vector<Hole>> holes_;  // by iso-energy
+  std::uint64_t traced_ = 0;
+};
+
+InsertionScanResult result_of(const ScanState& state) {
+  InsertionScanResult result;
+  const auto for_each_row = [](const std::vector<double>& numbers, std::size_t width, auto action) {
+    for (std::size_t k = 0; k + width <= numbers.size(); k += width) action(numbers.data() + k);
+  };
+  for_each_row(state.states, 7, [&](const double* r) { result.states.push_back({r[0], r[1], r[2], r[3], r[4], r[5], r[6]}); });
+  for_each_row(state.costs, 16, [&](const double* r) {
+    result.costs.push_back({r[0], r[1], static_cast<InsertionMethod>(static_cast<int>(r[2])), r[3], r[4], r[5], r[6], r[7], r[8],
+                            r[9], r[10], r[11], r[12], r[13], r[14], r[15]});
+  });
+  for_each_row(state.holes, 10,
+               [&](const double* r) { result.holes.push_back({r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], r[9]}); });
+  for_each_row(state.errors, 3, [&](const double* r) { result.errors.push_back({r[0], r[1], r[2]}); });
+  result.seconds = state.seconds;
+  return result;
+}
+
+}  // namespace
+
+void InsertionScanOptions::check(const LennardJonesModel& model) const {
+  const auto at_least_one = [](const char* what, std::uint64_t value) {
+    if (value == 0) throw_bad_input(fmt::format("{} must be at least 1", what));
+  };
+  at_least_one("number of configurations", configurations);
+  at_least_one("number of places", count);
+  at_least_one("number of states", states.size());
+  if (!(time_step > 0.0 && time_step <= 0.02))
+    throw_bad_input(fmt::format("time step {} is not allowed: above 0 and at most 0.02, or energy is not conserved", time_step));
+  if (target == ScanTarget::chemical_potential && widom_probes == 0)
+    throw_bad_input("a target of the chemical potential needs Widom probes: their number must be at least 1");
+  for (const State& state : states) {
+    if (!(state.temperature > 0.0) || !std::isfinite(state.temperature))
+      throw_bad_input(fmt::format("temperature {} is not allowed: it must be finite and above 0", state.temperature));
+    const Configuration start = fcc_start(model, particles, state.density, seed);
+    check_cutoff(model, start.box);
+    insertion.check(start.box);
+  }
+  InsertionOptions varied = insertion;
+  varied.region.reset();  // checked in each box
+  for (const double tolerance : tolerances)
+    for (const auto& step : largest_steps) {
+      varied.tolerance = tolerance;
+      varied.largest_step = step;
+      varied.check({});
+    }
+}
+
+InsertionScanResult run_insertion_scan(const LennardJonesModel& model, const InsertionScanOptions& options, Isa isa,
+                                       const CheckpointOptions& checkpoint, RunMonitor& monitor) {
+  options.check(model);
+  const auto file = checkpoint.folder / "scan.h5";
+  ScanState state;
+  if (checkpoint.enabled() && checkpoint.resume) load_checkpoint(file, state);
+  bool interrupted = false;
+  while (!interrupted && state.done < options.states.size()) {
+    const auto start = Clock::now();
+    ScanState next = state;
+    interrupted = !StateScan(model, options, isa, state.done).run(next, monitor);
+    // A state is not kept half done: an interrupted one is made again.
+    if (interrupted) break;
+    state = std::move(next);
+    ++state.done;
+    state.seconds += seconds_since(start);
+    if (checkpoint.enabled()) save_checkpoint(file, state);
+  }
+  InsertionScanResult result = result_of(state);
+  result.interrupted = interrupted;
+  return result;
+}
+
+}  // namespace lanescape

@@ -1,0 +1,82 @@
+#include "verification/probe_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "core/random.hpp"
+#include "interaction/probe_field.hpp"
+#include "verification/check.hpp"
+#include "verification/reference_bridge.hpp"
+
+namespace lanescape {
+namespace {
+
+// Few of the large cases: the reference looks at every particle.
+constexpr std::size_t probes_per_case = 12;
+
+bool fits_probe(const LennardJonesModel& model, const Box& box) {
+  const double cutoff = model.cutoff * *std::max_element(model.sigma.begin(), model.sigma.end());
+  return model.images == ImageRule::all || 2.0 * cutoff <= box.shortest();
+}
+
+Configuration without(const Configuration& all, std::size_t particle) {
+  Configuration rest = all;
+  const auto at = static_cast<std::ptrdiff_t>(particle);
+  rest.species.erase(rest.species.begin() + at);
+  rest.positions.erase(rest.positions.begin() + 3 * at, rest.positions.begin() + 3 * at + 3);
+  return rest;
+}
+
+// At how many of some random places the kernel and the reference differ. All are asked at once, and then what follows the first.
+double wrongly_clear(const LennardJonesModel& model, const Configuration& configuration, const kernels::KernelTable& table) {
+  constexpr std::size_t places = 40;
+  constexpr double clear_energy = 60.0;
+  const CounterRandom random(1, RandomStream::sites);
+  const ProbeField field(model, configuration, 0, table);
+  const std::vector<double> clearances = field.clearances(clear_energy);
+  std::vector<double> positions;
+  std::vector<bool> expected, found(places, false);
+  for (std::uint32_t k = 0; k < places; ++k) {
+    std::array<double, 3> place = random.uniform_point(0, k);
+    for (std::size_t axis = 0; axis < 3; ++axis) positions.push_back(place[axis] *= configuration.box.length[axis]);
+    expected.push_back(
+        reference::is_clear(place, clearances, configuration.positions, configuration.species, configuration.box.length));
+  }
+  for (std::size_t k = 0; k < places; ++k) {
+    k += field.first_clear(clearances, std::span(positions).subspan(3 * k));
+    if (k < places) found[k] = true;
+  }
+  double wrong = 0.0;
+  for (std::size_t k = 0; k < places; ++k) wrong += found[k] != expected[k];
+  return wrong;
+}
+
+}  // namespace
+
+std::vector<Deviation> verify_probes(const kernels::KernelTable& table, const std::vector<LennardJonesCase>& cases) {
+  Check energy(table, "lj_probe energy", tolerance::lj_sums), gradient(table, "lj_probe gradient", tolerance::lj_gradient),
+      energy_bits(table, "lj_probe, lj_probe_energies: same energy", tolerance::exact),
+      clear(table, "lj_probe_first_clear", tolerance::exact);
+  for (const auto& [name, model, configuration] : cases) {
+    if (!fits_probe(model, configuration.box)) continue;
+    const double allowance = rounding_allowance(configuration);
+    clear.add(name, wrongly_clear(model, configuration, table));
+    const std::size_t stride = std::max<std::size_t>(1, configuration.size() / probes_per_case);
+    for (std::size_t i = 0; i < configuration.size(); i += stride) {
+      const Configuration rest = without(configuration, i);
+      const auto position = configuration.position(i);
+      const reference::Probe expected = probe_reference(model, rest, position, configuration.species[i]);
+      const ProbeField field(model, rest, configuration.species[i], table);
+      const ProbeField::Sample sample = field.sample(position);
+      energy.add(name, relative(sample.energy, expected.energy, expected.magnitude) / allowance);
+      const double scale = *std::max_element(expected.gradient_magnitude.begin(), expected.gradient_magnitude.end());
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        gradient.add(name, relative(sample.gradient[axis], expected.gradient[axis], scale) / allowance);
+      energy_bits.add(name, !same_bits(sample.energy, field.energy(position)));
+    }
+  }
+  return {energy.deviation, gradient.deviation, energy_bits.deviation, clear.deviation};
+}
+
+}  // namespace lanescape

@@ -1,0 +1,80 @@
+#include "insert_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+namespace lanescape::program {
+
+void InsertionSetup::add_to(Options& options) {
+  options.add("--energy", energy,
+              "of a place: a number, or mean: the fluid's mean excess energy per particle; in a scan also mu, the excess chemical "
+              "potential");
+  options.add("--tolerance", tolerance, "largest error of the energy");
+  options.add("--measure", measure, "of the error: relative, absolute, or running-mean: relative, over thirty insertions");
+  options.add("--method", method, "usher, usher-indirect, usher-near, screened, or descent, the source's reference scheme");
+  options.add("--largest-step", largest_step, "[0.1 density^(-3/2)]");
+  options.add("--traverse-step", traverse_step, "of descent, after a line minimisation");
+  options.add("--clear-energy", clear_energy, "of screened: no particle alone repels a start by more");
+  options.add("--region", region, "x0,x1,y0,y1,z0,z1: a part of the box to search in [all of it]");
+  options.add("--wall", wall, "of the region: reflect, or well: a force back");
+  options.add("--species", species, "of the inserted particles [the first]");
+  options.add("--most-trials", most_trials, "starts of a search until it is given up");
+  options.add("--most-iterations", most_iterations, "of a trial [four times the running mean, at least 100]");
+}
+
+std::vector<std::string> list_of(const std::string& text, const char* option) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    if (end == begin) throw_bad_input(fmt::format("{}: '{}' is not allowed: values between commas are needed", option, text));
+    parts.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+double number_of(const std::string& text, const char* option) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size())
+    throw_bad_input(fmt::format("{}: '{}' is not allowed: a number is needed", option, text));
+  return value;
+}
+
+InsertionOptions InsertionSetup::resolve(std::uint64_t seed) const {
+  InsertionOptions options;
+  options.tolerance = tolerance;
+  options.measure = parse_error_measure(measure);
+  options.method = parse_insertion_method(method);
+  options.largest_step = largest_step;
+  options.traverse_step = traverse_step;
+  options.clear_energy = clear_energy;
+  options.most_iterations = most_iterations;
+  options.most_trials = most_trials;
+  options.wall = parse_region_wall(wall);
+  options.seed = seed;
+  if (region.empty()) return options;
+  const std::vector<std::string> edges = list_of(region, "--region");
+  if (edges.size() != 6)
+    throw_bad_input(fmt::format("--region: '{}' is not allowed: six numbers x0,x1,y0,y1,z0,z1 are needed", region));
+  options.region.emplace();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    options.region->low[axis] = number_of(edges[2 * axis], "--region");
+    options.region->high[axis] = number_of(edges[2 * axis + 1], "--region");
+  }
+  return options;
+}
+
+int InsertionSetup::species_index(const Mixture& mixture) const { return species.empty() ? 0 : mixture.find_species(species); }
+
+std::optional<double> InsertionSetup::number(const std::vector<std::string_view>& words) const {
+  if (std::find(words.begin(), words.end(), energy) != words.end()) return std::nullopt;
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(energy.data(), energy.data() + energy.size(), value);
+  if (error == std::errc() && end == energy.data() + energy.size()) return value;
+  throw_bad_input(fmt::format("--energy: '{}' is not allowed: a number or {} is needed", energy, fmt::join(words, " or ")));
+}
+
+}  // namespace lanescape::program

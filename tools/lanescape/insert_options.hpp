@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "insertion/insertion.hpp"
+#include "program.hpp"
+
+namespace lanescape::program {
+
+// How places are searched for, the same for single insertions, a scan and a growing density.
+struct InsertionSetup {
+  std::string energy = "mean";
+  double tolerance = 0.01, traverse_step = 0.6, clear_energy = 60.0;
+  std::string measure = "relative", method = "usher", wall = "reflect", region, species;
+  std::optional<double> largest_step;
+  std::optional<std::uint64_t> most_iterations;
+  std::uint64_t most_trials = 10'000;
+
+  void add_to(Options& options);
+  // All but the target, and the region, which needs a box to be checked in.
+  InsertionOptions resolve(std::uint64_t seed) const;
+  // Index of --species, by default the first.
+  int species_index(const Mixture& mixture) const;
+  // The number of --energy; nothing for one of the allowed words.
+  std::optional<double> number(const std::vector<std::string_view>& words) const;
+};
+
+// The parts of a text between commas; the message for an empty one names the option.
+std::vector<std::string> list_of(const std::string& text, const char* option);
+double number_of(const std::string& text, const char* option);
+
+}  // namespace lanescape::program

@@ -1,0 +1,149 @@
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/error.hpp"
+#include "insert_runs.hpp"
+#include "run/insertion_scan.hpp"
+
+namespace lanescape::program {
+namespace {
+
+InsertionScanOptions scan_options(const InsertState& state, const LennardJonesModel& model) {
+  InsertionScanOptions with;
+  for (const std::string& text : list_of(state.states, "--states")) {
+    const std::size_t colon = text.find(':');
+    if (colon == std::string::npos)
+      throw_bad_input(fmt::format("--states: '{}' is not allowed: density:temperature is needed", text));
+    with.states.push_back({number_of(text.substr(0, colon), "--states"), number_of(text.substr(colon + 1), "--states")});
+  }
+  for (const std::string& word : list_of(state.methods, "--methods")) with.methods.push_back(parse_insertion_method(word));
+  const std::string tolerances = state.tolerances.empty() ? fmt::format("{}", state.setup.tolerance) : state.tolerances;
+  for (const std::string& text : list_of(tolerances, "--tolerances")) with.tolerances.push_back(number_of(text, "--tolerances"));
+  for (const std::string& text : list_of(state.largest_steps, "--largest-steps"))
+    with.largest_steps.push_back(text == "default" ? state.setup.largest_step : std::optional(number_of(text, "--largest-steps")));
+  for (const std::string& text : list_of(state.iso_energies, "--iso-energies"))
+    with.iso_energies.push_back(number_of(text, "--iso-energies"));
+  with.insertion = state.setup.resolve(state.common.seed);
+  if (const std::optional<double> number = state.setup.number({"mean", "mu"})) {
+    with.target = ScanTarget::number;
+    with.insertion.target = *number;
+  } else if (state.setup.energy == "mu") {
+    with.target = ScanTarget::chemical_potential;
+  }
+  with.species = state.setup.species_index(model);
+  with.particles = state.particles;
+  with.configurations = state.configurations;
+  with.count = state.count;
+  with.equilibration_steps = state.equilibration_steps;
+  with.between_steps = state.between_steps;
+  with.time_step = state.time_step;
+  with.widom_probes = state.widom_probes;
+  with.holes = state.holes;
+  with.traced_searches = state.traced_searches;
+  with.seed = state.common.seed;
+  with.threads = state.common.threads;
+  with.check(model);
+  return with;
+}
+
+// Names and numbers of one row, for JSON and for the columns of a file alike.
+using Row = std::vector<std::pair<const char*, Json>>;
+
+Row row_of(const ScanCostRow& r) {
+  const Json step = r.largest_step > 0.0 ? Json(r.largest_step) : Json("default");
+  return {{"density", r.density},
+          {"temperature", r.temperature},
+          {"method", to_string(r.method)},
+          {"tolerance", r.tolerance},
+          {"largest_step", step},
+          {"target", r.target},
+          {"evaluations", r.evaluations},
+          {"evaluations_error", r.evaluations_error},
+          {"evaluations_deviation", r.evaluations_deviation},
+          {"trials", r.trials},
+          {"candidates", r.candidates},
+          {"distance", r.distance},
+          {"largest_distance", r.largest_distance},
+          {"error", r.error},
+          {"failures", r.failures},
+          {"seconds", r.seconds}};
+}
+
+Row row_of(const ScanStateRow& r) {
+  return {{"density", r.density},
+          {"temperature", r.temperature},
+          {"measured_temperature", r.measured_temperature},
+          {"excess_energy", r.excess_energy},
+          {"pressure", r.pressure},
+          {"chemical_potential", r.chemical_potential},
+          {"chemical_potential_error", r.chemical_potential_error}};
+}
+
+Row row_of(const ScanHoleRow& r) {
+  return {{"density", r.density},       {"temperature", r.temperature}, {"iso_energy", r.iso_energy},
+          {"holes", r.holes},           {"mean_radius", r.mean_radius}, {"semi_minor", r.semi_minor},
+          {"semi_major", r.semi_major}, {"anisotropy", r.anisotropy},   {"eccentricity", r.eccentricity},
+          {"open_directions", r.open}};
+}
+
+Row row_of(const ScanErrorPair& r) { return {{"density", r.density}, {"error", r.error}, {"next_error", r.next_error}}; }
+
+template <class Rows>
+void write_table(OutputFolder& folder, const std::string& name, const Rows& rows) {
+  if (rows.empty()) return;
+  folder.write(name, [&](std::ostream& out) {
+    const char* comma = "";
+    for (const auto& [column, value] : row_of(rows.front())) out << std::exchange(comma, ",") << column;
+    out << '\n';
+    for (const auto& row : rows) {
+      comma = "";
+      for (const auto& [column, value] : row_of(row))
+        out << std::exchange(comma, ",") << (value.is_string() ? value.template get<std::string>() : value.dump());
+      out << '\n';
+    }
+  });
+}
+
+template <class Rows>
+Json table_json(const Rows& rows) {
+  Json json = Json::array();
+  for (const auto& row : rows) {
+    Json object;
+    for (const auto& [column, value] : row_of(row)) object[column] = value;
+    json.push_back(std::move(object));
+  }
+  return json;
+}
+
+}  // namespace
+
+Json run_scan(InsertState& state, const Options& options, const LennardJonesModel& model, Isa isa, int& status) {
+  if (!state.file.empty()) throw_bad_input("FILE is not allowed with --scan, which makes its fluids");
+  const InsertionScanOptions with = scan_options(state, model);
+  OutputFolder folder = open_folder(state.common);
+  folder.write_run_file("insert", options.resolved());
+  TerminalMonitor monitor(state.common.quiet);
+  const InsertionScanResult run =
+      run_insertion_scan(model, with, isa, {folder.checkpoints(), !state.common.resume.empty()}, monitor);
+  double failures = 0.0;
+  for (const ScanCostRow& row : run.costs) failures += row.failures;
+  Json result;
+  result["scan"] = table_json(run.costs);
+  result["states"] = table_json(run.states);
+  if (!run.holes.empty()) result["holes"] = table_json(run.holes);
+  result["failures"] = failures;
+  result["outcome"] = run.interrupted ? "interrupted" : failures > 0.0 ? "limit of trials" : "done";
+  result["seconds"] = run.seconds;
+  status = run.interrupted || failures > 0.0 ? goal_not_reached : done;
+  if (folder.exists()) {
+    write_table(folder, "scan.csv", run.costs);
+    write_table(folder, "states.csv", run.states);
+    write_table(folder, "holes.csv", run.holes);
+    write_table(folder, "errors.csv", run.errors);
+  }
+  write_result(folder, "insert", options.resolved(), result);
+  return result;
+}
+
+}  // namespace lanescape::program
