@@ -25,6 +25,7 @@
 #include "interaction/hard_sphere.hpp"
 #include "interaction/lennard_jones.hpp"
 #include "interaction/probe_field.hpp"
+#include "interaction/state_mixture.hpp"
 #include "io/extended_xyz.hpp"
 #include "landscape/hard_sphere_landscape.hpp"
 #include "landscape/lennard_jones_landscape.hpp"
@@ -162,6 +163,23 @@ void lj_list_gradient_mixed(Isa isa, std::uint64_t rounds) {
   LennardJones interaction = liquid.interaction(isa, Precision::mixed);
   for (; rounds > 0; --rounds) keep(interaction.energy_and_gradient(liquid.positions, liquid.out));
 }
+
+// Three passes over the same lattice: two states with Lennard-Jones, or with tables.
+void state_gradient(Isa isa, std::uint64_t rounds, bool tables) {
+  ListLiquid liquid;
+  StateMixtureModel model = liquid_vapour();
+  if (tables)
+    for (auto& potential : model.potentials)
+      potential = StateMixtureModel::Table{0.7, 2.5, {6.0, 1.0, -0.6, -0.8, -0.5, -0.3, -0.2, -0.1, -0.05, 0.0}};
+  const ParticleLayout layout(std::vector<int>(liquid.start.size(), 0), 1);
+  const AlignedArray positions = layout.to_slots(liquid.start.positions);
+  AlignedArray gradient(layout.dimension());
+  StateMixture interaction(model, liquid.start.box, layout, kernel_table(isa), {});
+  for (; rounds > 0; --rounds) keep(interaction.energy_and_gradient(positions, gradient));
+}
+
+void state_lj_gradient(Isa isa, std::uint64_t rounds) { state_gradient(isa, rounds, false); }
+void state_table_gradient(Isa isa, std::uint64_t rounds) { state_gradient(isa, rounds, true); }
 
 // The list made anew, by particles that jump there and back.
 void neighbour_list(Isa isa, std::uint64_t rounds) {
@@ -312,6 +330,8 @@ constexpr Case cases[] = {
     {"lj_list_stress", lj_list_stress, 4},
     {"lj_list_energy_mixed", lj_list_energy_mixed, 4},
     {"lj_list_gradient_mixed", lj_list_gradient_mixed, 4},
+    {"state_lj_gradient", state_lj_gradient, 2},
+    {"state_table_gradient", state_table_gradient, 2},
     {"neighbour_list", neighbour_list, 4},
     {"lj_probe", lj_probe, 400},
     {"lj_probe_first_clear", lj_probe_first_clear, 4000},

@@ -23,6 +23,16 @@ void lj_probe_energies(const ProbeInput& in, const double* positions, std::size_
 std::size_t lj_probe_first_clear(const ProbeInput& in, const double* clearances, const double* positions,
                                  std::size_t count) noexcept;
 
+void state_densities(const StateDensityInput& in, double* densities) noexcept;
+double state_lj_energy(const StateLjInput& in) noexcept;
+void state_lj_gradient(const StateLjInput& in, double* gradient, double* slopes, LjOutput& out) noexcept;
+void state_lj_stress(const StateLjInput& in, double* gradient, double* slopes, LjOutput& out) noexcept;
+double state_table_energy(const StateTableInput& in) noexcept;
+void state_table_gradient(const StateTableInput& in, double* gradient, double* slopes, LjOutput& out) noexcept;
+void state_table_stress(const StateTableInput& in, double* gradient, double* slopes, LjOutput& out) noexcept;
+void state_density_gradient(const StateDensityForceInput& in, double* gradient, LjOutput& out) noexcept;
+void state_density_stress(const StateDensityForceInput& in, double* gradient, LjOutput& out) noexcept;
+
 bool sphere_any_overlap(const SphereInput& in) noexcept;
 std::size_t sphere_pairs_within(const SphereInput& in, double reach, SpherePair* out, std::size_t capacity) noexcept;
 double sphere_smallest_gap(const SphereInput& in) noexcept;

@@ -36,6 +36,20 @@ struct KernelTable {
   // The first of these positions with no point of any species nearer than that species' clearance; their number if there is none.
   std::size_t (*lj_probe_first_clear)(const ProbeInput&, const double* clearances, const double* positions,
                                       std::size_t count) noexcept;
+  // Interactions that follow the states of sites, over neighbour lists, for rows [0, row_count). Densities sum c w of each row.
+  // `near` and its lengths may stand in for those of the list from then on.
+  void (*state_densities)(const StateDensityInput&, double* densities) noexcept;
+  // At fixed probabilities: `slopes` gets dU/dp, row_count x states (each pair counts in full), `gradient` a point per row, energy
+  // and virial are these rows' share. The three agree to the bit in what they have in common; with one state they and lj_list_* do.
+  double (*state_lj_energy)(const StateLjInput&) noexcept;
+  void (*state_lj_gradient)(const StateLjInput&, double* gradient, double* slopes, LjOutput&) noexcept;
+  void (*state_lj_stress)(const StateLjInput&, double* gradient, double* slopes, LjOutput&) noexcept;
+  double (*state_table_energy)(const StateTableInput&) noexcept;
+  void (*state_table_gradient)(const StateTableInput&, double* gradient, double* slopes, LjOutput&) noexcept;
+  void (*state_table_stress)(const StateTableInput&, double* gradient, double* slopes, LjOutput&) noexcept;
+  // By way of the densities, given dU/drho of each site; there is no energy.
+  void (*state_density_gradient)(const StateDensityForceInput&, double* gradient, LjOutput&) noexcept;
+  void (*state_density_stress)(const StateDensityForceInput&, double* gradient, LjOutput&) noexcept;
 
   // Hard spheres over all pairs: whether any overlap; the pairs with r < s_ij + reach (their number, which may exceed the
   // capacity: then only so many are written); the smallest r - s_ij (infinity where there is no pair).

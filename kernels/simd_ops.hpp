@@ -35,6 +35,7 @@ inline constexpr std::size_t lanes = Vector::size;
 inline Vector load(const double* p) noexcept { return Vector::load_aligned(p); }
 inline Vector load_anywhere(const double* p) noexcept { return Vector::load_unaligned(p); }
 inline void store(double* p, Vector v) noexcept { v.store_aligned(p); }
+inline void store_anywhere(double* p, Vector v) noexcept { v.store_unaligned(p); }
 inline Vector broadcast(double s) noexcept { return Vector(s); }
 inline Vector absolute(Vector v) noexcept { return xsimd::abs(v); }
 inline Vector maximum(Vector a, Vector b) noexcept { return xsimd::max(a, b); }
@@ -81,6 +82,7 @@ inline Vector load_anywhere(const double* p) noexcept { return load(p); }
 inline void store(double* p, Vector v) noexcept {
   for (std::size_t k = 0; k < lanes; ++k) p[k] = v.lane[k];
 }
+inline void store_anywhere(double* p, Vector v) noexcept { store(p, v); }
 inline Vector broadcast(double s) noexcept {
   return lanewise([&](std::size_t) { return s; });
 }
@@ -195,6 +197,7 @@ inline Vector count_up(Vector sum, Mask m) noexcept {
 }
 
 inline void prefetch(const void* p) noexcept { __builtin_prefetch(p); }
+inline void prefetch_for_write(void* p) noexcept { __builtin_prefetch(p, 1); }
 
 // Bit k of the result is lane k of the mask.
 inline unsigned bits(Mask m) noexcept {
@@ -305,7 +308,8 @@ inline void gather_records(const double* base, const std::int32_t* index, Vector
 }
 
 // x, y and z of `lanes` points (records of four doubles, 32-byte aligned); that of lane k is place[k] doubles from `base`.
-inline void gather_points(const double* base, const std::uint32_t* place, Vector& x, Vector& y, Vector& z) noexcept {
+template <class Places>
+inline void gather_points(const double* base, const Places& place, Vector& x, Vector& y, Vector& z) noexcept {
 #if defined(LANESCAPE_ISA_AVX512)
   const auto two = [&](int k) {
     return _mm512_mask_broadcast_f64x4(_mm512_castpd256_pd512(_mm256_load_pd(base + place[k])), 0xf0,
@@ -333,6 +337,98 @@ inline void gather_points(const double* base, const std::uint32_t* place, Vector
   x = lanewise([&](std::size_t k) { return base[place[k]]; });
   y = lanewise([&](std::size_t k) { return base[place[k] + 1]; });
   z = lanewise([&](std::size_t k) { return base[place[k] + 2]; });
+#endif
+}
+
+// All four numbers of such records.
+template <class Places>
+inline void gather_quads(const double* base, const Places& place, Vector& x, Vector& y, Vector& z, Vector& w) noexcept {
+#if defined(LANESCAPE_ISA_AVX512)
+  const auto two = [&](int k) {
+    return _mm512_mask_broadcast_f64x4(_mm512_castpd256_pd512(_mm256_load_pd(base + place[k])), 0xf0,
+                                       _mm256_load_pd(base + place[k + 2]));
+  };
+  const __m512d a = two(0), b = two(1), c = two(4), d = two(5);
+  const __m512d xz_ab = _mm512_unpacklo_pd(a, b), xz_cd = _mm512_unpacklo_pd(c, d);
+  const __m512d yw_ab = _mm512_unpackhi_pd(a, b), yw_cd = _mm512_unpackhi_pd(c, d);
+  x = _mm512_shuffle_f64x2(xz_ab, xz_cd, 0x88);
+  y = _mm512_shuffle_f64x2(yw_ab, yw_cd, 0x88);
+  z = _mm512_shuffle_f64x2(xz_ab, xz_cd, 0xdd);
+  w = _mm512_shuffle_f64x2(yw_ab, yw_cd, 0xdd);
+#elif defined(LANESCAPE_ISA_AVX2)
+  const auto one = [&](int k) { return _mm256_load_pd(base + place[k]); };
+  const __m256d a = one(0), b = one(1), c = one(2), d = one(3);
+  const __m256d xz_ab = _mm256_unpacklo_pd(a, b), xz_cd = _mm256_unpacklo_pd(c, d);
+  const __m256d yw_ab = _mm256_unpackhi_pd(a, b), yw_cd = _mm256_unpackhi_pd(c, d);
+  x = _mm256_permute2f128_pd(xz_ab, xz_cd, 0x20);
+  y = _mm256_permute2f128_pd(yw_ab, yw_cd, 0x20);
+  z = _mm256_permute2f128_pd(xz_ab, xz_cd, 0x31);
+  w = _mm256_permute2f128_pd(yw_ab, yw_cd, 0x31);
+#elif defined(LANESCAPE_ISA_SSE2)
+  const double *first = base + place[0], *second = base + place[1];
+  const __m128d a = _mm_load_pd(first), b = _mm_load_pd(second), c = _mm_load_pd(first + 2), d = _mm_load_pd(second + 2);
+  x = _mm_unpacklo_pd(a, b);
+  y = _mm_unpackhi_pd(a, b);
+  z = _mm_unpacklo_pd(c, d);
+  w = _mm_unpackhi_pd(c, d);
+#else
+  x = lanewise([&](std::size_t k) { return base[place[k]]; });
+  y = lanewise([&](std::size_t k) { return base[place[k] + 1]; });
+  z = lanewise([&](std::size_t k) { return base[place[k] + 2]; });
+  w = lanewise([&](std::size_t k) { return base[place[k] + 3]; });
+#endif
+}
+
+// Whole numbers that lanes are rounded to, one by one in memory: what takes them out of a vector register costs more.
+struct WholeLanes {
+  alignas(64) double shifted[lanes];
+  std::uint32_t of(std::size_t lane) const noexcept {
+    std::uint64_t bits;
+    __builtin_memcpy(&bits, shifted + lane, sizeof bits);
+    return static_cast<std::uint32_t>(bits);
+  }
+};
+
+// The whole number nearest to each lane, ties to even. 0 <= v < 2^31.
+inline Vector store_nearest_whole(WholeLanes& out, Vector v) noexcept {
+  // 1.5 x 2^52 leaves no bits for a fraction: the lowest bits of the sum are the number.
+  const Vector shifter = broadcast(6755399441055744.0), sum = v + shifter;
+  store(out.shifted, sum);
+  asm volatile("" : "+m"(out.shifted));
+  return sum - shifter;
+}
+
+// The chosen lanes one after the other from p on; up to a whole vector is overwritten. Their number.
+inline std::size_t store_chosen(double* p, unsigned mask, Vector v) noexcept {
+#if defined(LANESCAPE_ISA_AVX512)
+  _mm512_storeu_pd(p, _mm512_maskz_compress_pd(static_cast<__mmask8>(mask), v));
+  return static_cast<std::size_t>(__builtin_popcount(mask));
+#else
+  alignas(64) double lane[lanes];
+  store(lane, v);
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < lanes; ++k) {
+    p[count] = lane[k];
+    count += mask >> k & 1U;
+  }
+  return count;
+#endif
+}
+
+// The same of numbers in memory, which may be those that are overwritten.
+inline std::size_t store_chosen(std::uint32_t* p, unsigned mask, const std::uint32_t* from) noexcept {
+#if defined(LANESCAPE_ISA_AVX512)
+  const __m256i chosen =
+      _mm256_maskz_compress_epi32(static_cast<__mmask8>(mask), _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), chosen);
+  return static_cast<std::size_t>(__builtin_popcount(mask));
+#else
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < lanes; ++k) {
+    p[count] = from[k];
+    count += mask >> k & 1U;
+  }
+  return count;
 #endif
 }
 

@@ -5,13 +5,15 @@
 
 #include "configuration/hard_sphere_model.hpp"
 #include "configuration/lennard_jones_model.hpp"
+#include "configuration/state_mixture_model.hpp"
 
 namespace lanescape {
 
 // What a name or a model file stands for.
-using Model = std::variant<LennardJonesModel, HardSphereModel>;
+using Model = std::variant<LennardJonesModel, HardSphereModel, StateMixtureModel>;
 
-// "kob-andersen", "lennard-jones", "hard-sphere" or "hard-sphere-binary"; anything else throws Error(bad_input) naming these.
+// "kob-andersen", "lennard-jones", "hard-sphere", "hard-sphere-binary" or "ucg"; anything else throws Error(bad_input) naming
+// these.
 Model named_model(std::string_view name);
 const Mixture& mixture_of(const Model& model);
 

@@ -6,7 +6,15 @@
 namespace lanescape {
 
 // Which independent sequence a random number belongs to. Numbers are append-only: they are part of what a seed means.
-enum class RandomStream : std::uint32_t { species = 1, velocities = 2, sites = 3, displacements = 4, monte_carlo = 5, insertion = 6 };
+enum class RandomStream : std::uint32_t {
+  species = 1,
+  velocities = 2,
+  sites = 3,
+  displacements = 4,
+  monte_carlo = 5,
+  insertion = 6,
+  langevin = 7
+};
 
 // Counter-based random numbers (Philox4x32-10, Salmon et al., SC 2011, doi 10.1145/2063384.2063405): each is a function of
 // (seed, stream, step, particle, draw), so that no state is kept and no order of calls or number of threads matters. The

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "interaction/lennard_jones_sums.hpp"
+#include "neighbour/neighbour_list.hpp"
 
 namespace lanescape {
 
@@ -89,13 +90,6 @@ bool takes_list(const LennardJonesModel& model, const Box& box, std::size_t part
     return true;
   }
   return particles >= list_crossover && fits_list(model, box, options.skin);
-}
-
-// Threads wait for one another some microseconds per evaluation: what fewer rows than this take one alone.
-constexpr std::size_t rows_per_thread = 128;
-
-int useful_threads(std::size_t particles, int wanted) {
-  return std::clamp(static_cast<int>(std::min<std::size_t>(particles / rows_per_thread, 4096)), 1, wanted);
 }
 
 }  // namespace

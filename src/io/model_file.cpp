@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
@@ -33,6 +34,7 @@ constexpr Range positive{[](double x) { return std::isfinite(x) && x > 0.0; }, "
 constexpr Range non_negative{[](double x) { return std::isfinite(x) && x >= 0.0; }, "a finite number of at least 0"};
 constexpr Range diameter_range{[](double x) { return x >= smallest_diameter && x <= largest_diameter; },
                                "a number from 1e-6 to 1e6"};
+constexpr Range finite{[](double x) { return std::isfinite(x); }, "a finite number"};
 constexpr Range unit_interval{[](double x) { return x >= 0.0 && x <= 1.0; }, "a number from 0 to 1"};
 
 // Typed, checked access to a parsed file; every refusal carries the line of the node at fault.
@@ -50,9 +52,18 @@ class ModelParser {
   const toml::node& need(const toml::table& table, std::string_view key) const;
   double number(const toml::node& node, std::string_view key, Range range) const;
   std::string text(const toml::node& node, std::string_view key) const;
-  std::vector<const toml::table*> tables(std::string_view key) const;
+  std::vector<const toml::table*> tables(std::string_view key) const { return tables(root_, key); }
+  std::vector<const toml::table*> tables(const toml::table& within, std::string_view key) const;
   LennardJonesModel parse_lennard_jones(const std::string& name) const;
   HardSphereModel parse_hard_sphere(const std::string& name) const;
+  StateMixtureModel parse_state_mixture(const std::string& name) const;
+  StateMixtureModel::States parse_states(const toml::table& species) const;
+  void parse_filters(StateMixtureModel& model) const;
+  void parse_state_pairs(StateMixtureModel& model) const;
+  StateMixtureModel::Potential parse_potential(const toml::table& pair) const;
+  std::array<std::size_t, 2> parse_state_numbers(const toml::table& pair, const StateMixtureModel& model,
+                                                 const std::array<std::size_t, 2>& species) const;
+  std::array<std::size_t, 2> parse_species_pair(const toml::table& pair, const Mixture& mixture) const;
   std::vector<Species> parse_species(std::initializer_list<std::string_view> keys) const;
   void parse_pairs(LennardJonesModel& model) const;
   std::size_t species_index(const toml::node& node, const Mixture& mixture) const;
@@ -98,8 +109,8 @@ std::string ModelParser::text(const toml::node& node, std::string_view key) cons
   return *value;
 }
 
-std::vector<const toml::table*> ModelParser::tables(std::string_view key) const {
-  const toml::node& node = need(root_, key);
+std::vector<const toml::table*> ModelParser::tables(const toml::table& within, std::string_view key) const {
+  const toml::node& node = need(within, key);
   const toml::array* array = node.as_array();
   if (!array || array->empty()) refuse(node, fmt::format("{} is not allowed: [[{}]] sections are needed", key, key));
   std::vector<const toml::table*> result;
@@ -149,6 +160,13 @@ std::size_t ModelParser::species_index(const toml::node& node, const Mixture& mi
   return located(node, [&] { return static_cast<std::size_t>(mixture.find_species(name)); });
 }
 
+std::array<std::size_t, 2> ModelParser::parse_species_pair(const toml::table& pair, const Mixture& mixture) const {
+  const toml::node& node = need(pair, "species");
+  const toml::array* names = node.as_array();
+  if (!names || names->size() != 2) refuse(node, "species is not allowed: a list of two names is needed, [\"A\", \"B\"]");
+  return {species_index(*names->get(0), mixture), species_index(*names->get(1), mixture)};
+}
+
 void ModelParser::parse_pairs(LennardJonesModel& model) const {
   const std::size_t n = model.species.size();
   model.epsilon.assign(n * n, 0.0);
@@ -156,9 +174,7 @@ void ModelParser::parse_pairs(LennardJonesModel& model) const {
   for (const toml::table* section : tables("pair")) {
     allow_keys(*section, {"species", "epsilon", "sigma"});
     const toml::node& node = need(*section, "species");
-    const toml::array* names = node.as_array();
-    if (!names || names->size() != 2) refuse(node, "species is not allowed: a list of two names is needed, [\"A\", \"B\"]");
-    const std::size_t a = species_index(*names->get(0), model), b = species_index(*names->get(1), model);
+    const auto [a, b] = parse_species_pair(*section, model);
     if (model.sigma[model.pair(a, b)] != 0.0)
       refuse(node, fmt::format("pair {}-{} is given twice: each pair once, in either order, is allowed", model.species[a].name,
                                model.species[b].name));
@@ -202,6 +218,120 @@ HardSphereModel ModelParser::parse_hard_sphere(const std::string& name) const {
   return model;
 }
 
+// A species' local density and its states, the densest first.
+StateMixtureModel::States ModelParser::parse_states(const toml::table& species) const {
+  const toml::node& node = need(species, "density");
+  const toml::table* density = node.as_table();
+  if (!density) refuse(node, "density is not allowed: a section [species.density] is needed");
+  allow_keys(*density, {"threshold", "width", "cutoff"});
+  StateMixtureModel::States states;
+  auto& [threshold, width, cutoff] = states.switching;
+  threshold = number(need(*density, "threshold"), "threshold", positive);
+  const toml::node* given = density->get("width");
+  width = given ? number(*given, "width", positive) : 0.1 * threshold;
+  cutoff = number(need(*density, "cutoff"), "cutoff", positive);
+  const auto sections = tables(species, "state");
+  for (const toml::table* state : sections) {
+    const bool last = state == sections.back();
+    allow_keys(*state, {"mu", "threshold", "width"});
+    const toml::node* mu = state->get("mu");
+    states.mu.push_back(mu ? number(*mu, "mu", finite) : 0.0);
+    if (const toml::node* extra = state->get("threshold"); last && extra)
+      refuse(*extra, "threshold is not allowed for the last state: it takes what is left");
+    if (last) break;
+    const double above = number(need(*state, "threshold"), "threshold", finite);
+    const toml::node* step = state->get("width");
+    states.steps.push_back({above, step ? number(*step, "width", positive) : 0.1 * above});
+  }
+  return states;
+}
+
+void ModelParser::parse_filters(StateMixtureModel& model) const {
+  model.filter.assign(model.species.size() * model.species.size(), 1.0);
+  if (!root_.get("filter")) return;
+  std::vector<bool> given(model.filter.size(), false);
+  for (const toml::table* section : tables("filter")) {
+    allow_keys(*section, {"of", "counts", "weight"});
+    const std::size_t k = model.pair(species_index(need(*section, "of"), model), species_index(need(*section, "counts"), model));
+    if (given[k]) refuse(*section, "this filter is given twice: each once is allowed");
+    given[k] = true;
+    model.filter[k] = number(need(*section, "weight"), "weight", non_negative);
+  }
+}
+
+std::array<std::size_t, 2> ModelParser::parse_state_numbers(const toml::table& pair, const StateMixtureModel& model,
+                                                            const std::array<std::size_t, 2>& species) const {
+  const std::array<std::size_t, 2> there = {model.states_of(species[0]), model.states_of(species[1])};
+  const toml::node* node = pair.get("states");
+  if (!node && there[0] == 1 && there[1] == 1) return {0, 0};
+  const toml::array* numbers = need(pair, "states").as_array();
+  if (!numbers || numbers->size() != 2) refuse(*node, "states is not allowed: a list of two numbers is needed, [0, 1]");
+  std::array<std::size_t, 2> states{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto value = numbers->get(k)->value_exact<std::int64_t>();
+    if (!value || *value < 0 || static_cast<std::size_t>(*value) >= there[k])
+      refuse(*numbers->get(k), fmt::format("states: species {} has {} of them: a whole number from 0 to {} is needed",
+                                           model.species[species[k]].name, there[k], there[k] - 1));
+    states[k] = static_cast<std::size_t>(*value);
+  }
+  return states;
+}
+
+StateMixtureModel::Potential ModelParser::parse_potential(const toml::table& pair) const {
+  const toml::node* node = pair.get("values");
+  if (!node) {
+    allow_keys(pair, {"species", "states", "epsilon", "sigma"});
+    return StateMixtureModel::LennardJones{number(need(pair, "epsilon"), "epsilon", non_negative),
+                                           number(need(pair, "sigma"), "sigma", positive)};
+  }
+  allow_keys(pair, {"species", "states", "first", "last", "values"});
+  const toml::array* values = node->as_array();
+  if (!values) refuse(*node, "values is not allowed: a list of numbers is needed");
+  StateMixtureModel::Table table{
+      number(need(pair, "first"), "first", non_negative), number(need(pair, "last"), "last", positive), {}};
+  for (const toml::node& value : *values) table.values.push_back(number(value, "values", finite));
+  return table;
+}
+
+void ModelParser::parse_state_pairs(StateMixtureModel& model) const {
+  const std::size_t n = model.species.size(), most = model.most_states();
+  model.potentials.assign(n * n * most * most, StateMixtureModel::LennardJones{0.0, 1.0});
+  std::vector<bool> given(model.potentials.size(), false);
+  for (const toml::table* section : tables("pair")) {
+    const auto species = parse_species_pair(*section, model);
+    const auto states = parse_state_numbers(*section, model, species);
+    const std::size_t k = model.potential_at(species[0], states[0], species[1], states[1]);
+    const std::size_t mirrored = model.potential_at(species[1], states[1], species[0], states[0]);
+    if (given[k])
+      refuse(*section, fmt::format("pair {}-{}, states {} and {}, is given twice: each pair once, in either order, is allowed",
+                                   model.species[species[0]].name, model.species[species[1]].name, states[0], states[1]));
+    given[k] = given[mirrored] = true;
+    model.potentials[k] = model.potentials[mirrored] = parse_potential(*section);
+  }
+  for (std::size_t s = 0; s < n; ++s)
+    for (std::size_t t = s; t < n; ++t)
+      for (std::size_t a = 0; a < model.states_of(s); ++a)
+        for (std::size_t b = 0; b < model.states_of(t); ++b)
+          if (!given[model.potential_at(s, a, t, b)])
+            refuse(need(root_, "pair"), fmt::format("pair {}-{}, states {} and {}, is missing: every pair of states is needed once",
+                                                    model.species[s].name, model.species[t].name, a, b));
+}
+
+StateMixtureModel ModelParser::parse_state_mixture(const std::string& name) const {
+  allow_keys(root_, {"kind", "name", "cutoff", "entropy_temperature", "species", "filter", "pair"});
+  StateMixtureModel model;
+  model.name = name;
+  if (const toml::node* node = root_.get("cutoff")) model.cutoff = number(*node, "cutoff", positive);
+  if (const toml::node* node = root_.get("entropy_temperature"))
+    model.entropy_temperature = number(*node, "entropy_temperature", non_negative);
+  model.species = parse_species({"name", "mass", "fraction", "density", "state"});
+  for (const toml::table* section : tables("species")) model.states.push_back(parse_states(*section));
+  parse_filters(model);
+  parse_state_pairs(model);
+  located(root_, [&] { model.check(); });
+  return model;
+}
+
 Model ModelParser::parse(const std::string& default_name) const {
   const toml::node& kind = need(root_, "kind");
   const std::string word = text(kind, "kind");
@@ -209,7 +339,8 @@ Model ModelParser::parse(const std::string& default_name) const {
   const std::string model_name = name ? text(*name, "name") : default_name;
   if (word == "lennard-jones") return parse_lennard_jones(model_name);
   if (word == "hard-sphere") return parse_hard_sphere(model_name);
-  refuse(kind, fmt::format("unknown kind '{}': allowed are lennard-jones, hard-sphere", word));
+  if (word == "ucg") return parse_state_mixture(model_name);
+  refuse(kind, fmt::format("unknown kind '{}': allowed are lennard-jones, hard-sphere, ucg", word));
 }
 
 std::string read_text(const std::filesystem::path& path) {
@@ -270,6 +401,42 @@ std::string to_toml(const HardSphereModel& model) {
   std::string text = header(model, "hard-sphere");
   for (std::size_t s = 0; s < model.species.size(); ++s)
     text += section(model.species[s]) + fmt::format("diameter = {}\n", model.diameters[s]);
+  return text;
+}
+
+std::string to_toml(const StateMixtureModel::Potential& potential) {
+  if (const auto* lj = std::get_if<StateMixtureModel::LennardJones>(&potential))
+    return fmt::format("epsilon = {}\nsigma = {}\n", lj->epsilon, lj->sigma);
+  const auto& table = std::get<StateMixtureModel::Table>(potential);
+  return fmt::format("first = {}\nlast = {}\nvalues = [{}]\n", table.first, table.last, fmt::join(table.values, ", "));
+}
+
+std::string to_toml(const StateMixtureModel& model) {
+  std::string text = header(model, "ucg");
+  text += fmt::format("cutoff = {}\nentropy_temperature = {}\n", model.cutoff, model.entropy_temperature);
+  const std::size_t n = model.species.size();
+  for (std::size_t s = 0; s < n; ++s) {
+    const auto& states = model.states[s];
+    text += section(model.species[s]);
+    text += fmt::format("[species.density]\nthreshold = {}\nwidth = {}\ncutoff = {}\n", states.switching.threshold,
+                        states.switching.width, states.switching.cutoff);
+    for (std::size_t a = 0; a < states.mu.size(); ++a) {
+      text += fmt::format("[[species.state]]\nmu = {}\n", states.mu[a]);
+      if (a < states.steps.size())
+        text += fmt::format("threshold = {}\nwidth = {}\n", states.steps[a].threshold, states.steps[a].width);
+    }
+  }
+  for (std::size_t s = 0; s < n; ++s)
+    for (std::size_t t = 0; t < n; ++t)
+      text += fmt::format("\n[[filter]]\nof = {}\ncounts = {}\nweight = {}\n", quoted(model.species[s].name),
+                          quoted(model.species[t].name), model.filter[model.pair(s, t)]);
+  for (std::size_t s = 0; s < n; ++s)
+    for (std::size_t t = s; t < n; ++t)
+      for (std::size_t a = 0; a < model.states_of(s); ++a)
+        for (std::size_t b = s == t ? a : 0; b < model.states_of(t); ++b)
+          text += fmt::format("\n[[pair]]\nspecies = [{}, {}]\nstates = [{}, {}]\n", quoted(model.species[s].name),
+                              quoted(model.species[t].name), a, b) +
+                  to_toml(model.potentials[model.potential_at(s, a, t, b)]);
   return text;
 }
 

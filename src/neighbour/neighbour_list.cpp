@@ -34,12 +34,16 @@ double unit_for(const std::vector<double>& reaches, double skin) {
 }  // namespace
 
 NeighbourList::NeighbourList(const Box& box, const ParticleLayout& layout, const std::vector<double>& cutoffs, double skin,
-                             const kernels::KernelTable& table, int threads, Coordinates coordinates)
+                             const kernels::KernelTable& table, int threads, Coordinates coordinates, Members members)
     : table_(&table),
       slots_(layout.slots()),
       reaches_(with_skin(cutoffs, skin)),
       skin_(skin),
-      own_images_in_reach_(std::any_of(reaches_.begin(), reaches_.end(), [&](double reach) { return reach >= box.shortest(); })),
+      own_images_left_out_(members == Members::others &&
+                           std::any_of(reaches_.begin(), reaches_.end(), [&](double reach) { return reach >= box.shortest(); })),
+      everywhere_(members == Members::every_point ? 4.0 * std::hypot(box.length[0], box.length[1], box.length[2]) +
+                                                        4.0 * *std::max_element(reaches_.begin(), reaches_.end())
+                                                  : 0.0),
       threads_(threads),
       points_(box, layout, margins(reaches_, layout.blocks().size()), threads,
               coordinates == Coordinates::floating ? 0.0 : unit_for(reaches_, skin)),
@@ -84,6 +88,10 @@ void NeighbourList::update(const AlignedArray& positions) {
     rebuild(positions);
 }
 
+void NeighbourList::set_values(const AlignedArray& per_slot, std::size_t stride) {
+  for_each_part(threads_, [&](int part) { points_.set_values(per_slot, stride, part); });
+}
+
 void NeighbourList::rebuild(const AlignedArray& positions) {
   ++rebuilds_;
   made_at_ = positions;
@@ -122,7 +130,7 @@ void NeighbourList::cut_into_blocks() {
 }
 
 std::size_t NeighbourList::without_own_images(std::uint32_t place, std::uint32_t* neighbours, std::size_t count) const {
-  if (!own_images_in_reach_) return count;
+  if (!own_images_left_out_) return count;
   return static_cast<std::size_t>(
       std::remove_if(neighbours, neighbours + count, [&](std::uint32_t other) { return slot_at(other) == slot_at(place); }) -
       neighbours);
@@ -137,7 +145,7 @@ void NeighbourList::fill(Block& block, std::size_t part, std::size_t begin) {
     const double* position = points_.points() + rows[k];
     for (std::size_t s = 0; s < points_.species(); ++s, ++length) {
       const kernels::NeighbourQuery query{{position[0], position[1], position[2]},
-                                          reaches_[block.species * points_.species() + s],
+                                          std::max(reaches_[block.species * points_.species() + s], everywhere_),
                                           rows[k] / static_cast<std::uint32_t>(kernels::point_width)};
       const auto search = [&] {
         return table_->points_within(points_.grid(s), query, neighbours.data() + end, neighbours.size() - end);
@@ -168,6 +176,11 @@ void NeighbourList::share_out() {
       first_blocks_[part++] = b;
     so_far += blocks_[b].padded_neighbours;
   }
+}
+
+int useful_threads(std::size_t particles, int wanted) {
+  constexpr std::size_t rows_per_thread = 128;
+  return std::clamp(static_cast<int>(std::min<std::size_t>(particles / rows_per_thread, 4096)), 1, wanted);
 }
 
 std::size_t NeighbourList::neighbours() const { return std::accumulate(lengths_.begin(), lengths_.end(), std::size_t{0}); }

@@ -14,7 +14,7 @@
 namespace lanescape {
 
 // Who is near whom: for every particle all others and their images within a cutoff and a skin, species by species. A particle's own
-// images are left out: what they do to it is a constant.
+// images are left out, unless asked for: what they do to it is a constant, but for what follows its state.
 // The list is made anew as soon as some particle is half the skin from where it was when the list was made: until then two
 // particles have come nearer by less than the skin, so that no pair within the cutoff is ever missed.
 //
@@ -24,18 +24,29 @@ class NeighbourList {
  public:
   // What its points are given as: as integers too for kernels in mixed precision.
   enum class Coordinates { floating, floating_and_fixed };
+  // Whose points are listed: those in reach; with a particle's own images in reach; every point, for who trusts no list.
+  enum class Members { others, with_own_images, every_point };
 
   // `cutoffs`: species x species, symmetric [sigma].
   NeighbourList(const Box& box, const ParticleLayout& layout, const std::vector<double>& cutoffs, double skin,
-                const kernels::KernelTable& table, int threads, Coordinates coordinates = Coordinates::floating);
+                const kernels::KernelTable& table, int threads, Coordinates coordinates = Coordinates::floating,
+                Members members = Members::others);
 
   // To be called before the list is used at new positions (layout's order, wrapped or not).
   void update(const AlignedArray& positions);
 
+  // Puts value [stride x slot] of each particle into the fourth number of its points' records, until the list is made anew.
+  void set_values(const AlignedArray& per_slot, std::size_t stride);
+
   std::size_t species() const { return points_.species(); }
+  std::size_t points() const { return points_.size(); }
   std::size_t block_count() const { return blocks_.size(); }
   std::size_t species_of(std::size_t block) const { return blocks_[block].species; }
   kernels::NeighbourRows rows_of(std::size_t block) const;
+  // Where a block's neighbours are: which of so many arrays, one for each part, and from where on. For arrays of the same form.
+  std::size_t array_of(std::size_t block) const { return blocks_[block].part; }
+  std::size_t first_neighbour(std::size_t block) const { return blocks_[block].first_neighbour; }
+  std::size_t array_size(std::size_t array) const { return neighbours_[array].size(); }
   // Of the points as integers, 0 if they are not given as such [sigma].
   double fixed_unit() const { return points_.fixed_unit(); }
   // The most rows a block has.
@@ -72,7 +83,8 @@ class NeighbourList {
   std::size_t slots_;
   std::vector<double> reaches_;  // cutoff and skin, species x species
   double skin_;
-  bool own_images_in_reach_;
+  bool own_images_left_out_;  // there are some in reach
+  double everywhere_;         // reach that finds every point, 0 if only those near are listed
   int threads_;
   PeriodicPoints points_;
   AlignedArray made_at_;
@@ -83,5 +95,8 @@ class NeighbourList {
   AlignedVector<std::uint32_t> lengths_;                  // of all blocks
   std::uint64_t rebuilds_ = 0;
 };
+
+// So many threads are worth their waiting for one another, some microseconds per evaluation, of those that are wanted.
+int useful_threads(std::size_t particles, int wanted);
 
 }  // namespace lanescape

@@ -183,6 +183,11 @@ void PeriodicPoints::refresh(const AlignedArray& positions, int part) {
   if (fixed_unit_ > 0.0) fix_points(begin, end);
 }
 
+void PeriodicPoints::set_values(const AlignedArray& per_slot, std::size_t stride, int part) {
+  for (std::size_t k = part_begin(size(), part, threads_); k < part_begin(size(), part + 1, threads_); ++k)
+    points_[kernels::point_width * k + 3] = per_slot[stride * slots_[k]];
+}
+
 void PeriodicPoints::fix_points(std::size_t begin, std::size_t end) {
   // Added to a number below 2^51, this leaves no bits for a fraction and the rounded number, modulo 2^32, in the lowest 32.
   constexpr double shifter = 6755399441055744.0;

@@ -29,6 +29,9 @@ class PeriodicPoints {
   // The same points at positions that have moved since.
   void refresh(const AlignedArray& positions, int part);  // a part of them, one per thread
 
+  // Puts one number of each particle into the fourth of its points' records, until the next sort.
+  void set_values(const AlignedArray& per_slot, std::size_t stride, int part);  // of a part of the points, one per thread
+
   std::size_t species() const { return grids_.size(); }
   std::size_t size() const { return slots_.size(); }
   // Records of kernels::point_width doubles.

@@ -250,6 +250,9 @@ DiffusionRunResult run_diffusion(const Model& model, const Configuration& start,
     check_no_overlap(start, kernel_table(isa));
     return run<HardSource>(*hard, start, options, isa, checkpoint, monitor);
   }
+  if (std::holds_alternative<StateMixtureModel>(model))
+    throw_bad_input(
+        fmt::format("diffusion of model {} is not there yet: Lennard-Jones mixtures and hard spheres are", mixture_of(model).name));
   const auto& soft = std::get<LennardJonesModel>(model);
   check_separations(start, soft);
   const double steps = options.window.interval / options.equilibration.time_step;

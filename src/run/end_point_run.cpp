@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "interaction/hard_sphere.hpp"
-#include "interaction/lennard_jones.hpp"
-#include "landscape/lennard_jones_landscape.hpp"
+#include "interaction/state_mixture.hpp"
+#include "landscape/make_landscape.hpp"
 
 namespace lanescape {
 namespace {
@@ -163,12 +163,14 @@ EndPointRunResult summarise(const State& state, bool interrupted, const Configur
 
 }  // namespace
 
-EndPointRunResult run_end_points(const LennardJonesModel& model, const Configuration& start, const EndPointOptions& options,
-                                 Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor) {
-  check_separations(start, model);
-  const ParticleLayout layout = ParticleLayout::in_space_order(start, model.species.size());
-  LennardJonesLandscape landscape(model, start.box, layout, isa, {.threads = options.threads, .precision = options.precision});
-  SoftState state{{EndPointGenerator(landscape, model, layout, layout.to_slots(start.positions), options),
+EndPointRunResult run_end_points(const Model& model, const Configuration& start, const EndPointOptions& options, Isa isa,
+                                 const CheckpointOptions& checkpoint, RunMonitor& monitor) {
+  check_soft_separations(start, model);
+  const Mixture& mixture = mixture_of(model);
+  const ParticleLayout layout = ParticleLayout::in_space_order(start, mixture.species.size());
+  const auto landscape =
+      make_landscape(model, start.box, layout, isa, {.threads = options.threads, .precision = options.precision});
+  SoftState state{{EndPointGenerator(*landscape, mixture, layout, layout.to_slots(start.positions), options),
                    DecimatedTrace(SoftState::trace_columns, trace_rows), RadialDistribution(start.box, layout, rdf_bins)},
                   std::clamp<std::uint64_t>(150'000 / (layout.size() + 1), 1, 1000),
                   layout.size()};

@@ -11,10 +11,10 @@
 
 #include "core/error.hpp"
 #include "interaction/hard_sphere.hpp"
-#include "interaction/lennard_jones.hpp"
+#include "interaction/state_mixture.hpp"
 #include "landscape/hard_sphere_landscape.hpp"
 #include "landscape/kinematic_landscape.hpp"
-#include "landscape/lennard_jones_landscape.hpp"
+#include "landscape/make_landscape.hpp"
 #include "observables/heterogeneity.hpp"
 #include "stepper/away.hpp"
 #include "stepper/contour.hpp"
@@ -29,10 +29,10 @@ using Clock = std::chrono::steady_clock;
 std::uint64_t steps_per_chunk(std::size_t particles) { return std::clamp<std::uint64_t>(30'000 / (particles + 1), 1, 1000); }
 constexpr std::uint64_t chunks_per_checkpoint = 700;
 
-std::unique_ptr<SoftLandscape> make_landscape(const LennardJonesModel& model, const Box& box, const ParticleLayout& layout, Isa isa,
+std::unique_ptr<SoftLandscape> make_landscape(const Model& model, const Box& box, const ParticleLayout& layout, Isa isa,
                                               const KinematicMetric& metric, int threads, Precision precision) {
-  std::unique_ptr<SoftLandscape> landscape = std::make_unique<LennardJonesLandscape>(
-      model, box, layout, isa, PairSearchOptions{.threads = threads, .skin = path_skin, .precision = precision});
+  std::unique_ptr<SoftLandscape> landscape =
+      lanescape::make_landscape(model, box, layout, isa, {.threads = threads, .skin = path_skin, .precision = precision});
   if (metric.is_euclidean()) return landscape;
   return std::make_unique<KinematicLandscape>(std::move(landscape), metric);
 }
@@ -62,14 +62,13 @@ PreparedPair prepare(const Model& model, const ConfigurationPair& pair, std::siz
   prepared.metric.to_kinematic(prepared.start);
   prepared.metric.to_kinematic(prepared.goal);
   prepared.distance = VectorAlgebra(kernel_table(isa)).distance(prepared.start, prepared.goal);
-  const auto* soft = std::get_if<LennardJonesModel>(&model);
-  if (soft == nullptr) {
+  if (std::holds_alternative<HardSphereModel>(model)) {
     if (!prepared.metric.is_euclidean())
       throw_bad_input(fmt::format("{}: hard spheres of unequal masses have no path yet: equal masses are needed", where));
     return prepared;
   }
   const auto landscape =
-      make_landscape(*soft, pair.start.box, prepared.layout, isa, prepared.metric, options.threads, options.precision);
+      make_landscape(model, pair.start.box, prepared.layout, isa, prepared.metric, options.threads, options.precision);
   const double highest_end = std::max(landscape->energy(prepared.start), landscape->energy(prepared.goal));
   prepared.landscape_energy = options.landscape_energy.value_or(highest_end);
   if (!(highest_end <= prepared.landscape_energy))
@@ -188,8 +187,8 @@ struct Walk {
   Stepper stepper;
 
   Walk(const Run& run, const ConfigurationPair& pair, const PreparedPair& prepared, const AlignedArray&)
-      : landscape(make_landscape(std::get<LennardJonesModel>(run.model), pair.start.box, prepared.layout, run.isa, prepared.metric,
-                                 run.threads_per_path(), run.options.precision)),
+      : landscape(make_landscape(run.model, pair.start.box, prepared.layout, run.isa, prepared.metric, run.threads_per_path(),
+                                 run.options.precision)),
         stepper(*landscape, prepared.landscape_energy, options(run)) {}
   static typename Stepper::Options options(const Run& run) {
     typename Stepper::Options options;
@@ -338,10 +337,10 @@ void check_end_points(const ConfigurationPair& pair, const Model& model, const s
   if (pair.start.positions == pair.finish.positions) throw_bad_input(where + ": the two end points coincide");
   for (const Configuration* end : {&pair.start, &pair.finish}) {
     try {
-      if (const auto* soft = std::get_if<LennardJonesModel>(&model))
-        check_separations(*end, *soft);
-      else
+      if (std::holds_alternative<HardSphereModel>(model))
         check_no_overlap(*end, kernel_table(available_isas().front()));
+      else
+        check_soft_separations(*end, model);
     } catch (const Error& error) {
       throw Error(error.code(), fmt::format("{}, {} end: {}", where, end == &pair.start ? "first" : "last", error.what()));
     }

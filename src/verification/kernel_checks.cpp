@@ -19,6 +19,7 @@
 #include "verification/hard_sphere_checks.hpp"
 #include "verification/probe_checks.hpp"
 #include "verification/reference_bridge.hpp"
+#include "verification/state_mixture_checks.hpp"
 
 namespace lanescape {
 
@@ -280,6 +281,7 @@ std::vector<Deviation> verify_kernels(Isa isa, const std::vector<LennardJonesCas
   for (auto& deviation : verify_lennard_jones_mixed(table, cases)) deviations.push_back(std::move(deviation));
   for (auto& deviation : verify_probes(table, cases)) deviations.push_back(std::move(deviation));
   for (auto& deviation : verify_vector_algebra(table)) deviations.push_back(std::move(deviation));
+  for (auto& deviation : verify_state_mixtures(table, state_mixture_cases())) deviations.push_back(std::move(deviation));
   for (auto& deviation : verify_hard_spheres(table, hard_sphere_cases())) deviations.push_back(std::move(deviation));
   for (auto& deviation : verify_event_driven(table)) deviations.push_back(std::move(deviation));
   return deviations;

@@ -3,8 +3,10 @@
 #include "configuration/particle_layout.hpp"
 #include "core/error.hpp"
 #include "interaction/lennard_jones.hpp"
+#include "interaction/state_mixture.hpp"
 #include "program.hpp"
 #include "verification/reference_bridge.hpp"
+#include "verification/state_mixture_checks.hpp"
 
 namespace lanescape::program {
 namespace {
@@ -12,7 +14,11 @@ namespace {
 struct EnergyResult {
   double energy, virial;
   std::array<double, 6> virial_tensor;
-  std::vector<double> gradient;  // 3N, user's order
+  std::vector<double> gradient{};  // 3N, user's order
+  // Of models with states.
+  std::optional<double> one_body_energy{};
+  std::vector<double> densities{};                   // N, where there are several states
+  std::vector<std::vector<double>> probabilities{};  // N, one for each state of the species
 };
 
 EnergyResult by_kernels(const LennardJonesModel& model, const Configuration& configuration, Isa isa,
@@ -32,62 +38,113 @@ EnergyResult by_reference(const LennardJonesModel& model, const Configuration& c
   return {e.energy, e.virial, e.virial_tensor, e.gradient};
 }
 
-Json to_json(const EnergyResult& e, const Configuration& configuration, const LennardJonesModel& model, const std::string& isa,
-             bool with_forces) {
+// Without the places of states that a species has not.
+std::vector<double> states_of(const StateMixtureModel& model, int species, const double* probabilities) {
+  return {probabilities, probabilities + model.states_of(static_cast<std::size_t>(species))};
+}
+
+EnergyResult by_kernels(const StateMixtureModel& model, const Configuration& configuration, Isa isa,
+                        const PairSearchOptions& options) {
+  const ParticleLayout layout = ParticleLayout::in_space_order(configuration, model.species.size());
+  StateMixture::Options with;
+  with.threads = options.threads;
+  StateMixture interaction(model, configuration.box, layout, kernel_table(isa), with);
+  AlignedArray gradient(layout.dimension(), 0.0);
+  const auto e = interaction.energy_and_stress(layout.to_slots(configuration.positions), gradient);
+  EnergyResult result{e.energy, e.virial, e.virial_tensor, layout.to_user(gradient), e.one_body_energy};
+  for (std::size_t i = 0; i < layout.size(); ++i) {
+    const std::size_t slot = layout.slot_of(i);
+    if (model.most_states() > 1) result.densities.push_back(interaction.order_parameters()[slot]);
+    result.probabilities.push_back(states_of(model, configuration.species[i], interaction.states().of(slot).data()));
+  }
+  return result;
+}
+
+EnergyResult by_reference(const StateMixtureModel& model, const Configuration& configuration) {
+  const auto e = evaluate_reference(model, configuration, SwitchingForm::exact);
+  EnergyResult result{e.energy, e.virial, e.virial_tensor, e.gradient, e.one_body_energy};
+  if (model.most_states() > 1) result.densities = e.densities;
+  for (std::size_t i = 0; i < configuration.size(); ++i)
+    result.probabilities.push_back(states_of(model, configuration.species[i], e.probabilities.data() + i * model.most_states()));
+  return result;
+}
+
+Json to_json(const EnergyResult& e, const Configuration& configuration, const Model& model, const std::string& isa,
+             bool with_forces, bool with_states) {
   Json result;
   result["energy"] = e.energy;
   result["energy_per_particle"] = e.energy / static_cast<double>(configuration.size());
+  if (e.one_body_energy) result["one_body_energy"] = *e.one_body_energy;
   result["virial"] = e.virial;
   // The sign and order of ASE and of solid-state physics: pressure is minus a third of its trace.
   for (const double w : e.virial_tensor) result["stress"].push_back(-w / configuration.box.volume());
   if (with_forces)
     for (std::size_t i = 0; i < configuration.size(); ++i)
       result["forces"].push_back({-e.gradient[3 * i], -e.gradient[3 * i + 1], -e.gradient[3 * i + 2]});
+  if (with_states) {
+    if (!e.densities.empty()) result["densities"] = e.densities;
+    result["probabilities"] = e.probabilities;
+  }
   result["particles"] = configuration.size();
-  result["model"] = model.name;
+  result["model"] = mixture_of(model).name;
   result["isa"] = isa;
-  result["images"] = to_string(model.images);
+  result["images"] = to_string(images_of(model));
+  return result;
+}
+
+struct EnergyState {
+  CommonOptions common;
+  SystemOptions system;
+  std::string file, backend = "simd";
+  bool forces = false, states = false;
+};
+
+Json run_energy(EnergyState& state, const Options& options) {
+  state.common.check();
+  const Isa isa = state.common.resolve_isa();
+  const Model model = state.system.resolve();
+  if (std::holds_alternative<HardSphereModel>(model))
+    throw_bad_input(
+        fmt::format("energy: model {} is made of hard spheres: allowed are kob-andersen, lennard-jones, ucg and model "
+                    "files of kinds lennard-jones and ucg",
+                    mixture_of(model).name));
+  if (state.states && !std::holds_alternative<StateMixtureModel>(model))
+    throw_bad_input(fmt::format("--states is not allowed with model {}: models of kind ucg have states", mixture_of(model).name));
+  if (state.backend != "simd" && state.backend != "reference")
+    throw_bad_input(fmt::format("--backend: '{}' is not allowed: simd or reference", state.backend));
+  const Precision precision = state.system.resolve_precision();
+  if (state.backend == "reference" && precision == Precision::mixed)
+    throw_bad_input("--precision: mixed is not allowed with the reference, which is in double precision");
+  const Configuration configuration = read_first_frame(state.file, model);
+  state.system.check_precision_in(model, configuration.box);
+  const bool simd = state.backend == "simd";
+  const PairSearchOptions search{.threads = state.common.threads, .precision = precision};
+  const auto evaluate = [&](const auto& soft) {
+    check_cutoff(soft, configuration.box);
+    return simd ? by_kernels(soft, configuration, isa, search) : by_reference(soft, configuration);
+  };
+  const auto* lennard_jones = std::get_if<LennardJonesModel>(&model);
+  const EnergyResult e = lennard_jones ? evaluate(*lennard_jones) : evaluate(std::get<StateMixtureModel>(model));
+  OutputFolder folder = open_folder(state.common);
+  Json result = to_json(e, configuration, model, simd ? to_string(isa) : "reference", state.forces, state.states);
+  result["precision"] = to_string(precision);
+  write_result(folder, "energy", options.resolved(), result);
   return result;
 }
 
 }  // namespace
 
 Subcommand add_energy(CLI::App& app) {
-  struct State {
-    CommonOptions common;
-    SystemOptions system;
-    std::string file, backend = "simd";
-    bool forces = false;
-  };
   CLI::App* sub = app.add_subcommand("energy", "Potential energy, virial, stress and forces of a configuration");
   const auto options = std::make_shared<Options>(*sub);
-  const auto state = std::make_shared<State>();
+  const auto state = std::make_shared<EnergyState>();
   options->add_positional("FILE", state->file, "extended XYZ; of several frames the first is used")->required();
   options->add_flag("--forces", state->forces, "list the forces too");
+  options->add_flag("--states", state->states, "list local densities and state probabilities too (ucg)");
   options->add("--backend", state->backend, "simd, or the scalar reference");
   state->system.add_to(*options);
   state->common.add_to(*options);
-  return {sub, [=](int&) {
-            state->common.check();
-            const Isa isa = state->common.resolve_isa();
-            const LennardJonesModel model = state->system.resolve_soft("energy");
-            if (state->backend != "simd" && state->backend != "reference")
-              throw_bad_input(fmt::format("--backend: '{}' is not allowed: simd or reference", state->backend));
-            const Precision precision = state->system.resolve_precision();
-            if (state->backend == "reference" && precision == Precision::mixed)
-              throw_bad_input("--precision: mixed is not allowed with the reference, which is in double precision");
-            const Configuration configuration = read_first_frame(state->file, model);
-            check_cutoff(model, configuration.box);
-            state->system.check_precision_in(model, configuration.box);
-            const bool simd = state->backend == "simd";
-            OutputFolder folder = open_folder(state->common);
-            const PairSearchOptions search{.threads = state->common.threads, .precision = precision};
-            const EnergyResult e = simd ? by_kernels(model, configuration, isa, search) : by_reference(model, configuration);
-            Json result = to_json(e, configuration, model, simd ? to_string(isa) : "reference", state->forces);
-            result["precision"] = to_string(precision);
-            write_result(folder, "energy", options->resolved(), result);
-            return result;
-          }};
+  return {sub, [=](int&) { return run_energy(*state, *options); }};
 }
 
 }  // namespace lanescape::program

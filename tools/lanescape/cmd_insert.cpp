@@ -128,7 +128,7 @@ Json run_exchange(InsertState& state, const Options& options, const LennardJones
 Json run_insert(InsertState& state, const Options& options, int& status) {
   state.common.check();
   const Isa isa = state.common.resolve_isa();
-  const LennardJonesModel model = state.system.resolve_soft("insert");
+  const LennardJonesModel model = state.system.resolve_lennard_jones("insert");
   if (state.system.precision) throw_bad_input("--precision is not allowed with insert: probes are in double precision");
   if (state.plot && state.common.out.empty() && state.common.resume.empty())
     throw_bad_input("--plot needs --out: the plots are files");

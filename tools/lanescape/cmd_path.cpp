@@ -248,8 +248,8 @@ Json run_path(PathState& state, const Options& options, const Options& setup_opt
   }
   const bool all_reached = add_paths(result, paths, path_options.method, mixture) && ends_made;
   result["model"] = mixture.name;
-  if (const auto* soft = std::get_if<LennardJonesModel>(&model))
-    result["images"] = to_string(soft->images);
+  if (!std::holds_alternative<HardSphereModel>(model))
+    result["images"] = to_string(images_of(model));
   else if (state.setup.radius_factor())
     result["radius_factor"] = *state.setup.radius_factor();
   else if (from_files)

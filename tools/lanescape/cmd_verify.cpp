@@ -59,7 +59,7 @@ Json run_verify(VerifyState& state, const Options& options, int& status) {
   const bool forced = forced_isa(state.common.isa).has_value();
   const std::vector<Isa> isas = forced ? std::vector{state.common.resolve_isa()} : available_isas();
   std::vector<LennardJonesCase> cases = lennard_jones_cases();
-  add_files(cases, state.files, state.system.resolve_soft("verify"));
+  add_files(cases, state.files, state.system.resolve_lennard_jones("verify"));
   OutputFolder folder = open_folder(state.common);
   std::optional<TemporaryFile> junit;  // made first: a place that cannot be written to is bad input
   if (!state.junit.empty()) junit.emplace(state.junit);

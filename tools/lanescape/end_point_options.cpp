@@ -129,7 +129,7 @@ EndPointProtocol EndPointSetup::resolve(const Model& model, std::size_t particle
 }
 
 void EndPointSetup::settle(const Model& model) {
-  if (std::holds_alternative<LennardJonesModel>(model)) {
+  if (!std::holds_alternative<HardSphereModel>(model)) {
     if (!temperature_) temperature_ = 1.0;
     if (!density_ && start_file_.empty()) density_ = 1.2;
   } else if (start_file_.empty()) {
@@ -140,9 +140,9 @@ void EndPointSetup::settle(const Model& model) {
 
 Configuration EndPointSetup::start(const Model& model, const CommonOptions& common, Isa isa) {
   resolve(model, particles_, common.seed);  // refuses options before there is work to wait for
-  if (const auto* soft = std::get_if<LennardJonesModel>(&model)) {
-    if (start_file_.empty()) return fcc_start(*soft, particles_, density_.value_or(1.2), common.seed);
-    return read_first_frame(start_file_, *soft);
+  if (!std::holds_alternative<HardSphereModel>(model)) {
+    if (start_file_.empty()) return fcc_start(mixture_of(model), particles_, density_.value_or(1.2), common.seed);
+    return read_first_frame(start_file_, model);
   }
   const auto& hard = std::get<HardSphereModel>(model);
   if (!start_file_.empty()) {
@@ -205,7 +205,7 @@ EndPointRunResult run_protocol(const Model& model, const Configuration& start, c
   EndPointOptions options = std::get<EndPointOptions>(protocol);
   options.threads = threads;
   options.precision = precision;
-  return run_end_points(std::get<LennardJonesModel>(model), start, options, isa, checkpoint, monitor);
+  return run_end_points(model, start, options, isa, checkpoint, monitor);
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include <initializer_list>
 #include <iostream>
 #include <utility>
 
 #include "core/error.hpp"
-#include "interaction/lennard_jones.hpp"
 #include "interaction/rounding_overlaps.hpp"
+#include "interaction/state_mixture.hpp"
 #include "io/extended_xyz.hpp"
 #include "io/model_file.hpp"
 #include "program.hpp"
@@ -36,28 +37,51 @@ void CommonOptions::check() const {
 }
 
 void SystemOptions::add_to(Options& options) {
-  options.add("--model", model, "kob-andersen, lennard-jones, hard-sphere or hard-sphere-binary");
-  options.add("--model-file", model_file, "model file (TOML) instead of --model");
-  options.add("--cutoff", cutoff, "cutoff of a soft model in units of sigma_ab [2.5]");
+  options.add("--model", model, "kob-andersen, lennard-jones, hard-sphere, hard-sphere-binary or ucg");
+  options.add("--model-file", model_file, "model file (TOML) instead of --model; of kind ucg with --model ucg");
+  options.add("--cutoff", cutoff, "cutoff of a soft model in units of sigma_ab; of ucg in sigma [2.5]");
   options.add("--images", images, "periodic images of a soft model: all within the cutoff, or the minimum image only [all]");
   options.add("--truncation", truncation, "of a soft model: shifted, plain or tail [shifted]");
   options.add("--precision", precision, "of a soft model's pairs: double, or mixed: single with sums in double [double]");
 }
 
+namespace {
+
+// A file of another kind than the name that is given with it says something else than was meant.
+Model read_named(const std::string& file, const std::string& name) {
+  Model model = read_model_file(file);
+  if (name == "ucg" && !std::holds_alternative<StateMixtureModel>(model))
+    throw_bad_input(fmt::format("--model ucg: {} is of another kind: a model file of kind ucg is needed", file));
+  return model;
+}
+
+// The options given are not for this model.
+void refuse_options(std::initializer_list<std::pair<const char*, bool>> given, const Model& model, const char* why) {
+  for (const auto& [option, is_given] : given)
+    if (is_given) throw_bad_input(fmt::format("{} is not allowed with model {}: {}", option, mixture_of(model).name, why));
+}
+
+}  // namespace
+
 Model SystemOptions::resolve() const {
-  Model resolved = model_file.empty() ? named_model(model) : read_model_file(model_file);
+  Model resolved = model_file.empty() ? named_model(model) : read_named(model_file, model);
   if (auto* soft = std::get_if<LennardJonesModel>(&resolved)) {
     if (cutoff) soft->cutoff = *cutoff;
     if (images) soft->images = parse_image_rule(*images);
     if (truncation) soft->truncation = parse_truncation(*truncation);
     soft->check();
     resolve_precision();
-  } else if (const char* given = cutoff ? "--cutoff" : images ? "--images" : truncation ? "--truncation" : nullptr) {
-    throw_bad_input(fmt::format("{} is not allowed with model {}: hard spheres have no cutoff, image rule or truncation", given,
-                                mixture_of(resolved).name));
-  } else if (precision) {
-    throw_bad_input(fmt::format("--precision is not allowed with model {}: overlaps of hard spheres are decided exactly",
-                                mixture_of(resolved).name));
+  } else if (auto* states = std::get_if<StateMixtureModel>(&resolved)) {
+    refuse_options({{"--images", images && parse_image_rule(*images) != ImageRule::all}}, resolved, "all images count");
+    refuse_options({{"--truncation", truncation && parse_truncation(*truncation) != Truncation::shifted}}, resolved,
+                   "its potentials are shifted");
+    refuse_options({{"--precision", resolve_precision() != Precision::double_precision}}, resolved, "double precision only");
+    if (cutoff) states->cutoff = *cutoff;
+    states->check();
+  } else {
+    refuse_options({{"--cutoff", cutoff.has_value()}, {"--images", images.has_value()}, {"--truncation", truncation.has_value()}},
+                   resolved, "hard spheres have no cutoff, image rule or truncation");
+    refuse_options({{"--precision", precision.has_value()}}, resolved, "overlaps of hard spheres are decided exactly");
   }
   return resolved;
 }
@@ -68,18 +92,22 @@ void SystemOptions::check_precision_in(const Model& model, const Box& box, doubl
   if (const auto* soft = std::get_if<LennardJonesModel>(&model)) check_precision(*soft, box, resolve_precision(), skin);
 }
 
-LennardJonesModel SystemOptions::resolve_soft(const char* subcommand) const {
-  Model resolved = resolve();
-  if (auto* soft = std::get_if<LennardJonesModel>(&resolved)) return std::move(*soft);
-  throw_bad_input(
-      fmt::format("{}: model {} is made of hard spheres: allowed are kob-andersen, lennard-jones and model files of kind "
-                  "lennard-jones",
-                  subcommand, mixture_of(resolved).name));
+ImageRule images_of(const Model& model) {
+  const auto* lennard_jones = std::get_if<LennardJonesModel>(&model);
+  return lennard_jones ? lennard_jones->images : ImageRule::all;
 }
 
-void check_separations_in(const std::string& file, const Configuration& configuration, const LennardJonesModel& model) {
+LennardJonesModel SystemOptions::resolve_lennard_jones(const char* subcommand) const {
+  Model resolved = resolve();
+  if (auto* soft = std::get_if<LennardJonesModel>(&resolved)) return std::move(*soft);
+  throw_bad_input(fmt::format(
+      "{}: model {} is made of {}: allowed are kob-andersen, lennard-jones and model files of kind lennard-jones", subcommand,
+      mixture_of(resolved).name, std::holds_alternative<HardSphereModel>(resolved) ? "hard spheres" : "sites with states"));
+}
+
+void check_separations_in(const std::string& file, const Configuration& configuration, const Model& model) {
   try {
-    check_separations(configuration, model);
+    check_soft_separations(configuration, model);
   } catch (const Error& error) {
     throw Error(error.code(), fmt::format("{}: {}", file, error.what()));
   }
@@ -97,8 +125,8 @@ Configuration first_of(ExtendedXyzReader& reader) {
 
 }  // namespace
 
-Configuration read_first_frame(const std::string& file, const LennardJonesModel& model) {
-  ExtendedXyzReader reader(file, model);
+Configuration read_first_frame(const std::string& file, const Model& model) {
+  ExtendedXyzReader reader(file, mixture_of(model));
   Configuration first = first_of(reader);
   check_separations_in(file, first, model);
   return first;

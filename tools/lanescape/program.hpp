@@ -133,20 +133,24 @@ struct SystemOptions {
   Precision resolve_precision() const;
   // Refuses mixed precision in a box where it is not to be had.
   void check_precision_in(const Model& model, const Box& box, double skin = default_skin) const;
-  // For a subcommand that knows soft models only, which the message for others names.
-  LennardJonesModel resolve_soft(const char* subcommand) const;
+  // For a subcommand that knows Lennard-Jones mixtures only, which the message for others names.
+  LennardJonesModel resolve_lennard_jones(const char* subcommand) const;
 };
 
-// The first frame of a file, all of which must be sound, without overlaps; throws Error(bad_input) naming the file.
-Configuration read_first_frame(const std::string& file, const LennardJonesModel& model);
+// The image rule of a soft model.
+ImageRule images_of(const Model& model);
+
+// The first frame of a file of soft particles, all of which must be sound, without overlaps; throws Error(bad_input) naming the
+// file.
+Configuration read_first_frame(const std::string& file, const Model& model);
 // The first frame of a file of hard spheres, all of which must be sound, with its radii as they are: with any species, or the
 // model's.
 Configuration read_hard_frame(const std::string& file);
 Configuration read_hard_frame(const std::string& file, const HardSphereModel& model);
 // remove_rounding_overlaps() of interaction/ with the file's name before what it says.
 double remove_rounding_overlaps_in(const std::string& file, Configuration& configuration, double tolerance);
-// check_separations() of interaction/ with the file's name before what it says.
-void check_separations_in(const std::string& file, const Configuration& configuration, const LennardJonesModel& model);
+// check_soft_separations() of interaction/ with the file's name before what it says.
+void check_separations_in(const std::string& file, const Configuration& configuration, const Model& model);
 
 // Runs of the program: one subcommand each. `run` computes, returns the JSON for stdout and sets the exit status.
 struct Subcommand {

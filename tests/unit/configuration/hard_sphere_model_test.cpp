@@ -90,7 +90,7 @@ TEST(NamedModel, AnUnknownNameIsRefusedWithTheNamesThereAre) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::bad_input);
     EXPECT_STREQ(error.what(),
-                 "unknown model 'soft-sphere': allowed are kob-andersen, lennard-jones, hard-sphere, hard-sphere-binary");
+                 "unknown model 'soft-sphere': allowed are kob-andersen, lennard-jones, hard-sphere, hard-sphere-binary, ucg");
   }
 }
 

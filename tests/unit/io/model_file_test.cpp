@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "test_files.hpp"
+#include "verification/state_mixture_cases.hpp"
 
 namespace lanescape {
 namespace {
@@ -52,6 +53,71 @@ void expect_equal(const LennardJonesModel& a, const LennardJonesModel& b) {
 void expect_equal(const HardSphereModel& a, const HardSphereModel& b) {
   expect_equal_mixtures(a, b);
   EXPECT_EQ(a.diameters, b.diameters);
+}
+
+void expect_equal(const StateMixtureModel& a, const StateMixtureModel& b) {
+  expect_equal_mixtures(a, b);
+  EXPECT_EQ(a.cutoff, b.cutoff);
+  EXPECT_EQ(a.entropy_temperature, b.entropy_temperature);
+  EXPECT_EQ(a.filter, b.filter);
+  ASSERT_EQ(a.states.size(), b.states.size());
+  for (std::size_t s = 0; s < a.states.size(); ++s) {
+    EXPECT_EQ(a.states[s].mu, b.states[s].mu);
+    EXPECT_EQ(a.states[s].switching.threshold, b.states[s].switching.threshold);
+    EXPECT_EQ(a.states[s].switching.width, b.states[s].switching.width);
+    EXPECT_EQ(a.states[s].switching.cutoff, b.states[s].switching.cutoff);
+    ASSERT_EQ(a.states[s].steps.size(), b.states[s].steps.size());
+    for (std::size_t k = 0; k < a.states[s].steps.size(); ++k) {
+      EXPECT_EQ(a.states[s].steps[k].threshold, b.states[s].steps[k].threshold);
+      EXPECT_EQ(a.states[s].steps[k].width, b.states[s].steps[k].width);
+    }
+    for (std::size_t t = 0; t < a.states.size(); ++t)
+      for (std::size_t x = 0; x < a.states_of(s); ++x)
+        for (std::size_t y = 0; y < a.states_of(t); ++y) {
+          const auto &u = a.potentials[a.potential_at(s, x, t, y)], &v = b.potentials[b.potential_at(s, x, t, y)];
+          ASSERT_EQ(u.index(), v.index());
+          if (const auto* lj = std::get_if<StateMixtureModel::LennardJones>(&u)) {
+            EXPECT_EQ(lj->epsilon, std::get<StateMixtureModel::LennardJones>(v).epsilon);
+            EXPECT_EQ(lj->sigma, std::get<StateMixtureModel::LennardJones>(v).sigma);
+          } else {
+            const auto &one = std::get<StateMixtureModel::Table>(u), &other = std::get<StateMixtureModel::Table>(v);
+            EXPECT_EQ(one.first, other.first);
+            EXPECT_EQ(one.last, other.last);
+            EXPECT_EQ(one.values, other.values);
+          }
+        }
+  }
+}
+
+TEST(ModelFile, ModelsWithStatesAreReadBackBitForBit) {
+  using Variant = StateMixtureVariant;
+  for (const Variant& variant :
+       {Variant{1, 1}, Variant{1, 2, Variant::Filter::every, Variant::Potentials::tables},
+        Variant{2, 3, Variant::Filter::asymmetric, Variant::Potentials::both, 0.7}, Variant{3, 2, Variant::Filter::cross}}) {
+    const StateMixtureModel model = state_mixture_model(variant);
+    std::ostringstream out;
+    write_model_file(out, model);
+    expect_equal(read<StateMixtureModel>(out.str()), model);
+  }
+}
+
+TEST(ModelFile, WidthsAreATenthOfThresholdsAndFiltersOneWhereNotGiven) {
+  const StateMixtureModel model = read<StateMixtureModel>(
+      "kind = 'ucg'\n[[species]]\nname = 'Ar'\n[species.density]\nthreshold = 1.4\ncutoff = 2.0\n"
+      "[[species.state]]\nthreshold = 5.0\n[[species.state]]\n[[species]]\nname = 'Kr'\n[species.density]\nthreshold = 1\ncutoff = "
+      "2\n"
+      "[[species.state]]\n[[filter]]\nof = 'Kr'\ncounts = 'Ar'\nweight = 0\n"
+      "[[pair]]\nspecies = ['Ar', 'Ar']\nstates = [0, 0]\nepsilon = 1\nsigma = 1\n"
+      "[[pair]]\nspecies = ['Ar', 'Ar']\nstates = [1, 0]\nepsilon = 1\nsigma = 1\n"
+      "[[pair]]\nspecies = ['Ar', 'Ar']\nstates = [1, 1]\nepsilon = 1\nsigma = 1\n"
+      "[[pair]]\nspecies = ['Ar', 'Kr']\nstates = [0, 0]\nepsilon = 1\nsigma = 1\n"
+      "[[pair]]\nspecies = ['Kr', 'Ar']\nstates = [0, 1]\nepsilon = 1\nsigma = 1\n"
+      "[[pair]]\nspecies = ['Kr', 'Kr']\nepsilon = 1\nsigma = 1\n");
+  EXPECT_DOUBLE_EQ(model.states[0].switching.width, 0.14);
+  EXPECT_DOUBLE_EQ(model.states[0].steps[0].width, 0.5);
+  EXPECT_EQ(model.filter, (std::vector<double>{1.0, 1.0, 0.0, 1.0}));
+  EXPECT_EQ(model.states_of(1), 1U);
+  EXPECT_EQ(model.states[0].mu, (std::vector<double>{0.0, 0.0}));
 }
 
 TEST(ModelFile, KobAndersenFromAFileIsTheNamedModel) {

@@ -1,0 +1,217 @@
+// Local densities, and the forces that act by way of them: the first and the last pass over pairs of a state-probability
+// interaction. As in lj_list.cpp each pair is met from both ends and only the row's own results are written.
+//
+// A switching function is a cubic spline in r^2: no root, no division, and 2 dw/d(r^2) is w'/r. Any function will do, and the force
+// is the exact derivative of the density that is summed, so that energy is conserved to rounding.
+
+#include "kernel_declarations.hpp"
+#include "state_pair.hpp"
+
+namespace lanescape::kernels::LANESCAPE_ISA {
+namespace {
+
+struct Switching {
+  const double* records;
+  Vector per_unit, intervals, cutoff_squared;
+};
+
+Switching broadcast_switching(const SwitchingSpline& w) {
+  return {w.spline.records, broadcast(w.spline.per_unit), broadcast(w.spline.intervals), broadcast(w.cutoff_squared)};
+}
+
+// Slopes of large systems come from memory when they are written to; it is asked for them so far ahead (worth 5 % of all passes).
+constexpr std::size_t write_ahead = 128;
+
+// How many neighbours are looked at before what is in range of them is counted.
+constexpr std::size_t chunk = 128;
+
+// The first part of a pass: squared separations of what is within reach of anything, packed.
+struct Packed {
+  alignas(array_alignment) double r2[chunk + lanes];
+  std::size_t count = 0;
+};
+
+template <bool masked>
+LANESCAPE_INLINE void pack_vector(const double* points, const std::uint32_t* places, const Displacement& row, Vector reach_squared,
+                                  Mask valid, std::uint32_t* near, Packed& packed) {
+  prefetch(places + list_prefetch);
+  Displacement d;
+  gather_points(points, places, d.x, d.y, d.z);
+  const Vector r2 = squared_length({d.x - row.x, d.y - row.y, d.z - row.z});
+  Mask in_reach = less(r2, reach_squared);
+  if constexpr (masked) in_reach = both(in_reach, valid);
+  const unsigned chosen = bits(in_reach);
+  store_chosen(packed.r2 + packed.count, chosen, r2);
+  packed.count += store_chosen(near + packed.count, chosen, places);
+}
+
+// The density of a vector of neighbours; w'(r)/r of each goes to `slopes`.
+LANESCAPE_INLINE Vector density_of(const Switching& w, Vector r2, Mask in_range, double* slopes) {
+  SplinePlace place;
+  find_place(place, r2 * w.per_unit, w.intervals, 1);
+  Vector b, c, d, a;
+  gather_quads(w.records, place, b, c, d, a);
+  prefetch_for_write(slopes + write_ahead);
+  // 2 dw/d(r^2) = w'(r)/r.
+  store_anywhere(slopes, where(in_range, spline_slope(place.s, b, c, d) * (w.per_unit + w.per_unit)));
+  return where(in_range, spline_value(place.s, b, c, d, a));
+}
+
+LANESCAPE_INLINE Vector sum_of_packed(const Switching& w, const Packed& packed, double* slopes) {
+  Vector sum = broadcast(0.0);
+  std::size_t j = 0;
+  for (; j + lanes <= packed.count; j += lanes) {
+    const Vector r2 = load(packed.r2 + j);
+    sum += density_of(w, r2, less(r2, w.cutoff_squared), slopes + j);
+  }
+  if (j == packed.count) return sum;
+  const Mask valid = lanes_below(static_cast<std::ptrdiff_t>(packed.count - j));
+  const Vector r2 = where(valid, load(packed.r2 + j));
+  return sum + density_of(w, r2, both(less(r2, w.cutoff_squared), valid), slopes + j);
+}
+
+// What a segment's neighbours that are near go to.
+struct Near {
+  std::uint32_t* places;
+  double* slopes;
+  std::size_t count = 0;
+};
+
+// The density that `count` neighbours make.
+LANESCAPE_INLINE double one_segment(const double* points, const std::uint32_t* places, std::size_t count, const Displacement& row,
+                                    const Switching& w, Vector reach_squared, Near& near) {
+  Vector sum = broadcast(0.0);
+  for (std::size_t first = 0; first < count; first += chunk) {
+    const std::size_t here = count - first < chunk ? count - first : chunk;
+    const std::uint32_t* from = places + first;
+    std::uint32_t* to = near.places + near.count;
+    Packed packed;
+    std::size_t j = 0;
+    for (; j + lanes <= here; j += lanes) pack_vector<false>(points, from + j, row, reach_squared, {}, to, packed);
+    if (j < here)
+      pack_vector<true>(points, from + j, row, reach_squared, lanes_below(static_cast<std::ptrdiff_t>(here - j)), to, packed);
+    sum += sum_of_packed(w, packed, near.slopes + near.count);
+    near.count += packed.count;
+  }
+  return sum_lanes(sum);
+}
+
+// 2 dw/d(r^2) = w'(r)/r.
+LANESCAPE_INLINE Vector slope_over_r(const Switching& w, Vector r2, Mask in_range) {
+  SplinePlace place;
+  find_place(place, r2 * w.per_unit, w.intervals, 1);
+  Vector b, c, d;
+  gather_points(w.records, place, b, c, d);
+  return where(in_range, spline_slope(place.s, b, c, d) * (w.per_unit + w.per_unit));
+}
+
+// One row's part in the densities of both ends of its pairs.
+struct Multipliers {
+  Vector own;   // dU/drho_i c_ij
+  Vector back;  // c_ji
+};
+
+// What one row gets. Copied to registers for a loop and back after it.
+struct RowSums {
+  Displacement g;
+  Vector virial;
+};
+
+// Both ends count by one switching function, whose slopes are there, or the other end counts by another.
+template <bool with_tensor, bool one_switching>
+LANESCAPE_INLINE void force_segment(const double* points, const std::uint32_t* places, const double* slopes, std::size_t count,
+                                    const Displacement& row, const Switching theirs, const Multipliers multipliers,
+                                    RowSums& row_sums, StateTotals& totals) {
+  RowSums sums = row_sums;
+  for (std::size_t j = 0; j < count; j += lanes) {
+    prefetch(places + j + list_prefetch);
+    prefetch(slopes + j + list_prefetch);
+    Displacement d;
+    Vector lambda;
+    gather_quads(points, places + j, d.x, d.y, d.z, lambda);
+    d = {d.x - row.x, d.y - row.y, d.z - row.z};
+    const Vector r2 = squared_length(d), mine = load(slopes + j);
+    Vector slope;
+    if constexpr (one_switching) {
+      slope = multiply_add(lambda, multipliers.back, multipliers.own) * mine;
+    } else {
+      const Mask valid = lanes_below(static_cast<std::ptrdiff_t>(count - j));
+      const Vector back = slope_over_r(theirs, r2, both(less(r2, theirs.cutoff_squared), valid));
+      slope = multiply_add(lambda * multipliers.back, back, multipliers.own * mine);
+    }
+    const Vector pull = broadcast(0.0) - slope;
+    sums.g = {multiply_add(pull, d.x, sums.g.x), multiply_add(pull, d.y, sums.g.y), multiply_add(pull, d.z, sums.g.z)};
+    sums.virial = multiply_add(pull, r2, sums.virial);
+    if constexpr (with_tensor) add_tensor(totals, d, pull);
+  }
+  row_sums = sums;
+}
+
+template <bool with_tensor>
+void sum_forces(const StateDensityForceInput& in, double* gradient, LjOutput& out) {
+  const NeighbourRows& list = in.list;
+  const std::uint32_t* places = list.neighbours;
+  const std::uint32_t* length = list.lengths;
+  const double* slopes = in.slopes;
+  StateTotals totals;
+  for (std::size_t k = 0; k < list.row_count; ++k) {
+    const Displacement row = row_at(list, k);
+    const double lambda = list.points[list.rows[k] + 3];
+    const Vector zero = broadcast(0.0);
+    RowSums sums{{zero, zero, zero}, zero};
+    for (std::size_t s = 0; s < list.species_count; ++s, ++length) {
+      const Multipliers multipliers{broadcast(lambda * in.filter[s]), broadcast(in.filter_back[s])};
+      const SwitchingSpline& w = in.switchings[s];
+      if (in.filter[s] == 0.0 && in.filter_back[s] == 0.0) {
+        // neither end counts the other
+      } else if (w.spline.records == in.switching.spline.records) {
+        force_segment<with_tensor, true>(list.points, places, slopes, *length, row, {}, multipliers, sums, totals);
+      } else {
+        force_segment<with_tensor, false>(list.points, places, slopes, *length, row, broadcast_switching(w), multipliers, sums,
+                                          totals);
+      }
+      places += padded_length(*length);
+      slopes += padded_length(*length);
+    }
+    store_point(gradient + point_width * k, sums.g.x, sums.g.y, sums.g.z);
+    totals.virial += sums.virial;
+  }
+  put_totals(totals, with_tensor, out);
+}
+
+}  // namespace
+
+void state_densities(const StateDensityInput& in, double* densities) noexcept {
+  const NeighbourRows& list = in.list;
+  const std::uint32_t* places = list.neighbours;
+  const std::uint32_t* length = list.lengths;
+  Near near{in.near, in.near_slopes};
+  std::uint32_t* near_length = in.near_lengths;
+  const Switching w = broadcast_switching(in.switching);
+  for (std::size_t k = 0; k < list.row_count; ++k) {
+    const Displacement row = row_at(list, k);
+    double density = 0.0;
+    for (std::size_t s = 0; s < list.species_count; ++s, ++length, ++near_length) {
+      near.count = 0;
+      const double sum = one_segment(list.points, places, *length, row, w, broadcast(in.reaches_squared[s]), near);
+      density += in.filter[s] * sum;
+      places += padded_length(*length);
+      *near_length = static_cast<std::uint32_t>(near.count);
+      const std::size_t end = padded_length(near.count);
+      for (std::size_t j = near.count; j < end; ++j) near.places[j] = list.rows[k];
+      near.places += end;
+      near.slopes += end;
+    }
+    densities[k] = density;
+  }
+}
+
+void state_density_gradient(const StateDensityForceInput& in, double* gradient, LjOutput& out) noexcept {
+  sum_forces<false>(in, gradient, out);
+}
+
+void state_density_stress(const StateDensityForceInput& in, double* gradient, LjOutput& out) noexcept {
+  sum_forces<true>(in, gradient, out);
+}
+
+}  // namespace lanescape::kernels::LANESCAPE_ISA

@@ -1,0 +1,88 @@
+#pragma once
+
+#include "lj_pair.hpp"
+
+// What the kernels of state-probability interactions share.
+namespace lanescape::kernels::LANESCAPE_ISA {
+
+constexpr std::size_t list_prefetch = 192;  // as in lj_list.cpp
+
+// How many states of its neighbours a kernel sums over at once: the probability of one is 1, of two the first comes with the point,
+// of more four come from a record of their own, and again for each four there are.
+enum class StatesAtOnce { one, two, four };
+constexpr std::size_t count_of(StatesAtOnce n) { return n == StatesAtOnce::one ? 1 : n == StatesAtOnce::two ? 2 : 4; }
+
+// Probabilities of one vector of neighbours.
+struct NeighbourStates {
+  Vector p[4];
+};
+
+// One vector of neighbours of a row: separations r_j - r_i, their squares, and which are within the cutoff.
+struct PairVector {
+  Displacement d;
+  Vector r2, fourth;
+  Mask in_range;
+};
+
+template <bool masked>
+LANESCAPE_INLINE PairVector pairs_of(const double* points, const std::uint32_t* places, const Displacement& row,
+                                     Vector cutoff_squared, Mask valid) {
+  PairVector pair;
+  Displacement& d = pair.d;
+  gather_quads(points, places, d.x, d.y, d.z, pair.fourth);
+  d = {d.x - row.x, d.y - row.y, d.z - row.z};
+  pair.r2 = squared_length(d);
+  pair.in_range = less(pair.r2, cutoff_squared);
+  if constexpr (masked) pair.in_range = both(pair.in_range, valid);
+  return pair;
+}
+
+LANESCAPE_INLINE Vector where(Mask m, Vector v) { return choose(m, v, broadcast(0.0)); }
+
+// Where in a spline an argument lies: places of the intervals' first records, and how far into the interval.
+struct SplinePlace {
+  WholeLanes intervals;
+  Vector s;
+  std::uint32_t stride;  // from interval to interval, in doubles
+  // Of the first record of a lane's interval.
+  std::uint32_t operator[](std::size_t lane) const { return intervals.of(lane) * stride; }
+};
+
+// `x` in intervals; what is not below their number, or is not a number, is at the end. `width`: records of an interval.
+LANESCAPE_INLINE void find_place(SplinePlace& place, Vector x, Vector intervals, std::size_t width) {
+  x = choose(less(x, intervals), x, intervals);
+  // A knot may be the end of one interval or the start of the next: the spline is the same.
+  place.s = x - store_nearest_whole(place.intervals, x - broadcast(0.5));
+  place.stride = static_cast<std::uint32_t>(width * point_width);
+}
+
+LANESCAPE_INLINE Vector spline_value(Vector s, Vector b, Vector c, Vector d, Vector a) {
+  return multiply_add(s, multiply_add(s, multiply_add(s, d, c), b), a);
+}
+
+// With respect to the argument in intervals.
+LANESCAPE_INLINE Vector spline_slope(Vector s, Vector b, Vector c, Vector d) {
+  return multiply_add(s, multiply_add(s * broadcast(3.0), d, c + c), b);
+}
+
+inline std::size_t padded_length(std::size_t count) { return (count + slot_padding - 1) / slot_padding * slot_padding; }
+
+inline Displacement row_at(const NeighbourRows& list, std::size_t k) {
+  const double* point = list.points + list.rows[k];
+  return {broadcast(point[0]), broadcast(point[1]), broadcast(point[2])};
+}
+
+// What is summed lane by lane, and what row by row.
+struct StateTotals : Totals {
+  double rows_energy = 0.0, rows_virial = 0.0;
+};
+
+// Every pair was met from both ends.
+inline void put_totals(const StateTotals& totals, bool with_tensor, LjOutput& out) {
+  out.energy = 0.5 * (sum_lanes(totals.energy) + totals.rows_energy);
+  out.virial = 0.5 * (sum_lanes(totals.virial) + totals.rows_virial);
+  if (with_tensor)
+    for (std::size_t k = 0; k < 6; ++k) out.virial_tensor[k] = 0.5 * sum_lanes(totals.tensor[k]);
+}
+
+}  // namespace lanescape::kernels::LANESCAPE_ISA

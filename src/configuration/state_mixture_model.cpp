@@ -1,0 +1,144 @@
+#include "configuration/state_mixture_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace lanescape {
+namespace {
+
+using Model = StateMixtureModel;
+
+void need(bool condition, const std::string& message) {
+  if (!condition) throw_bad_input(message);
+}
+
+bool positive(double x) { return std::isfinite(x) && x > 0.0; }
+
+void check_states(const std::string& name, const Model::States& states) {
+  const Model::Switching& w = states.switching;
+  need(positive(w.threshold) && positive(w.width) && positive(w.cutoff),
+       fmt::format("species {}: threshold {}, width {} and cutoff {} of the density must be finite and above 0", name, w.threshold,
+                   w.width, w.cutoff));
+  need(w.threshold < w.cutoff,
+       fmt::format("species {}: threshold {} of the density must be below its cutoff {}", name, w.threshold, w.cutoff));
+  // The switching function is a spline of 1024 intervals in r^2.
+  need(w.width >= 0.01 * w.cutoff,
+       fmt::format("species {}: width {} of the density is not allowed: at least a hundredth of its cutoff {}", name, w.width,
+                   w.cutoff));
+  for (const Model::Step& step : states.steps)
+    need(std::isfinite(step.threshold) && positive(step.width),
+         fmt::format("species {}: threshold {} and width {} of a state must be finite, the width above 0", name, step.threshold,
+                     step.width));
+  need(states.mu.size() == states.steps.size() + 1,
+       fmt::format("species {}: {} states need {} values of mu", name, states.steps.size() + 1, states.steps.size() + 1));
+  for (const double mu : states.mu) need(std::isfinite(mu), fmt::format("species {}: mu {} must be finite", name, mu));
+}
+
+void check_potential(const std::string& pair, const Model::LennardJones& u) {
+  need(std::isfinite(u.epsilon) && u.epsilon >= 0.0 && positive(u.sigma),
+       fmt::format("pair {}: epsilon {} and sigma {} must be finite, epsilon at least 0 and sigma above 0", pair, u.epsilon,
+                   u.sigma));
+}
+
+void check_potential(const std::string& pair, const Model::Table& u) {
+  need(u.values.size() >= 4,
+       fmt::format("pair {}: {} values of a table are not allowed: at least 4 are needed", pair, u.values.size()));
+  need(std::isfinite(u.first) && u.first >= 0.0 && std::isfinite(u.last) && u.last > u.first,
+       fmt::format("pair {}: a table from {} to {} is not allowed: from 0 or more to more", pair, u.first, u.last));
+  need(std::all_of(u.values.begin(), u.values.end(), [](double x) { return std::isfinite(x); }),
+       fmt::format("pair {}: values of a table must be finite", pair));
+  need(u.values.back() == 0.0,
+       fmt::format("pair {}: the last value of a table is {}: it must be 0, or energy is not conserved", pair, u.values.back()));
+}
+
+bool same(const Model::Potential& a, const Model::Potential& b) {
+  if (const auto* u = std::get_if<Model::LennardJones>(&a)) {
+    const auto* v = std::get_if<Model::LennardJones>(&b);
+    return v && u->epsilon == v->epsilon && u->sigma == v->sigma;
+  }
+  const auto &u = std::get<Model::Table>(a), *v = std::get_if<Model::Table>(&b);
+  return v && u.first == v->first && u.last == v->last && u.values == v->values;
+}
+
+}  // namespace
+
+std::size_t StateMixtureModel::most_states() const {
+  std::size_t most = 1;
+  for (const States& of_species : states) most = std::max(most, of_species.steps.size() + 1);
+  return most;
+}
+
+double StateMixtureModel::size_of(std::size_t s, std::size_t t) const {
+  double size = cutoff;
+  for (std::size_t a = 0; a < states_of(s); ++a)
+    for (std::size_t b = 0; b < states_of(t); ++b) {
+      const Potential& u = potentials[potential_at(s, a, t, b)];
+      if (const auto* lj = std::get_if<LennardJones>(&u))
+        size = std::min(size, lj->sigma);
+      else
+        size = std::min(size, std::max(std::get<Table>(u).first, 1e-3));
+    }
+  return size;
+}
+
+double StateMixtureModel::reach(std::size_t s, std::size_t t) const {
+  double reach = 0.0;
+  if (filter[pair(s, t)] != 0.0) reach = states[s].switching.cutoff;
+  if (filter[pair(t, s)] != 0.0) reach = std::max(reach, states[t].switching.cutoff);
+  for (std::size_t a = 0; a < states_of(s); ++a)
+    for (std::size_t b = 0; b < states_of(t); ++b) {
+      const auto* table = std::get_if<Table>(&potentials[potential_at(s, a, t, b)]);
+      reach = std::max(reach, table ? table->last : cutoff);
+    }
+  return reach;
+}
+
+void StateMixtureModel::check() const {
+  check_species();
+  const std::size_t n = species.size();
+  need(states.size() == n, fmt::format("model {}: {} species need states", name, n));
+  need(filter.size() == n * n, fmt::format("model {}: {} species need {} density filters", name, n, n * n));
+  need(potentials.size() == n * n * most_states() * most_states(),
+       fmt::format("model {}: {} species of up to {} states need {} potentials", name, n, most_states(),
+                   n * n * most_states() * most_states()));
+  need(positive(cutoff), fmt::format("cutoff {} is not allowed: it must be finite and above 0 [sigma]", cutoff));
+  need(std::isfinite(entropy_temperature) && entropy_temperature >= 0.0,
+       fmt::format("entropy temperature {} is not allowed: it must be finite and at least 0", entropy_temperature));
+  for (std::size_t s = 0; s < n; ++s) check_states(species[s].name, states[s]);
+  for (const double c : filter)
+    need(std::isfinite(c) && c >= 0.0, fmt::format("density filter {} must be finite and at least 0", c));
+  for (std::size_t s = 0; s < n; ++s)
+    for (std::size_t t = 0; t < n; ++t) {
+      const std::string names = fmt::format("{}-{}", species[s].name, species[t].name);
+      const Table* first = nullptr;
+      for (std::size_t a = 0; a < states_of(s); ++a)
+        for (std::size_t b = 0; b < states_of(t); ++b) {
+          const Potential& u = potentials[potential_at(s, a, t, b)];
+          std::visit([&](const auto& form) { check_potential(names, form); }, u);
+          need(same(u, potentials[potential_at(t, b, s, a)]), fmt::format("pair {} differs from its mirror image", names));
+          const auto* table = std::get_if<Table>(&u);
+          if (!first) first = table;
+          need(!table ||
+                   (table->first == first->first && table->last == first->last && table->values.size() == first->values.size()),
+               fmt::format("pair {}: tables at different distances are not allowed: one set for all states of a pair", names));
+        }
+    }
+}
+
+StateMixtureModel liquid_vapour() {
+  StateMixtureModel model;
+  model.name = "ucg";
+  model.species = {{"Ar", 1.0, 1.0}};
+  // Liquid sites have some 9 neighbours within 1.5 sigma, those of the vapour hardly any.
+  model.states = {{{1.5, 0.15, 2.5}, {{4.0, 1.5}}, {0.0, 0.0}}};
+  model.filter = {1.0};
+  using LennardJones = StateMixtureModel::LennardJones;
+  model.potentials = {LennardJones{1.0, 1.0}, LennardJones{0.8, 1.0}, LennardJones{0.8, 1.0}, LennardJones{0.6, 1.0}};
+  return model;
+}
+
+}  // namespace lanescape

@@ -1,0 +1,92 @@
+#include "dynamics/langevin.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace lanescape {
+
+void LangevinOptions::check() const {
+  const auto need = [](const char* what, double value, double most) {
+    if (!(value > 0.0 && value <= most))
+      throw_bad_input(fmt::format("{} {} is not allowed: above 0 and at most {}", what, value, most));
+  };
+  need("temperature", temperature, 1e6);
+  need("friction", friction, 1e6);
+  need("time step", time_step, 0.1);
+}
+
+Langevin::Langevin(SoftLandscape& landscape, const Mixture& model, const ParticleLayout& layout, AlignedArray position,
+                   const LangevinOptions& options)
+    : landscape_(&landscape),
+      options_(options),
+      noise_(options.seed, RandomStream::langevin),
+      kick_(position.size(), 0.0),
+      position_(std::move(position)),
+      velocity_(position_.size(), 0.0),
+      gradient_(position_.size(), 0.0) {
+  options.check();
+  const CounterRandom maxwell(options.seed, RandomStream::velocities);
+  for (std::size_t s = 0; s < layout.blocks().size(); ++s)
+    for (std::size_t k = layout.blocks()[s].begin; k < layout.blocks()[s].begin + layout.blocks()[s].count; ++k) {
+      const double mass = model.species[s].mass;
+      for (std::uint32_t axis = 0; axis < 3; ++axis) {
+        kick_[axis * layout.slots() + k] = -0.5 * options.time_step / mass;
+        velocity_[axis * layout.slots() + k] =
+            std::sqrt(options.temperature / mass) * maxwell.normal(0, static_cast<std::uint32_t>(slots_.size()), axis);
+      }
+      slots_.push_back(k);
+      masses_.push_back(mass);
+    }
+  landscape_->gradient(position_, gradient_);
+}
+
+void Langevin::kick() {
+  for (std::size_t k = 0; k < velocity_.size(); ++k) velocity_[k] += kick_[k] * gradient_[k];
+}
+
+void Langevin::drift() { landscape_->algebra().axpy(position_, position_, 0.5 * options_.time_step, velocity_); }
+
+void Langevin::friction_and_noise() {
+  const double kept = std::exp(-options_.friction * options_.time_step);
+  const std::size_t slots = velocity_.size() / 3;
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    const double given = std::sqrt((1.0 - kept * kept) * options_.temperature / masses_[i]);
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+      double& v = velocity_[axis * slots + slots_[i]];
+      v = kept * v + given * noise_.normal(steps_, static_cast<std::uint32_t>(i), axis);
+    }
+  }
+}
+
+void Langevin::step() {
+  kick();
+  drift();
+  friction_and_noise();
+  drift();
+  landscape_->gradient(position_, gradient_);
+  kick();
+  ++steps_;
+}
+
+double Langevin::temperature() const {
+  double twice_kinetic = 0.0;
+  for (std::size_t i = 0; i < slots_.size(); ++i)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double v = velocity_[axis * (velocity_.size() / 3) + slots_[i]];
+      twice_kinetic += masses_[i] * v * v;
+    }
+  return twice_kinetic / (3.0 * static_cast<double>(slots_.size()));
+}
+
+void Langevin::exchange(Archive& archive) {
+  archive.field("position", position_);
+  archive.field("velocity", velocity_);
+  archive.field("steps", steps_);
+  landscape_->exchange(archive);
+  if (archive.reading()) landscape_->gradient(position_, gradient_);
+}
+
+}  // namespace lanescape

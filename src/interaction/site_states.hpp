@@ -1,0 +1,179 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "configuration/particle_layout.hpp"
+#include "core/aligned_array.hpp"
+#include "core/archive.hpp"
+#include "core/box.hpp"
+#include "core/parallel.hpp"
+#include "kernel_table.hpp"
+#include "neighbour/neighbour_list.hpp"
+
+// Energies that depend on positions by way of the states of sites too ([P] Eq. 1): U(p(R), R), p_ia the probability of site i to be
+// in state a. What gives the probabilities and what gives the energy know nothing of each other. The one tells p and takes dU/dp;
+// the other takes p and tells dU/dp and the forces at fixed p. Either is written once and goes with any of the other kind.
+namespace lanescape {
+
+// The probabilities of every site, site by site.
+struct SiteStates {
+  std::size_t states = 1;
+  AlignedArray p;  // slots x states; zero for padding
+
+  std::span<double> of(std::size_t slot) { return {p.data() + slot * states, states}; }
+  std::span<const double> of(std::size_t slot) const { return {p.data() + slot * states, states}; }
+};
+
+// Where sites are, who is near whom, and which states they are in: what order parameters and potentials see of a system. In the
+// layout's order throughout.
+class Sites {
+ public:
+  struct Options {
+    int threads = 1;
+    double skin = 0.0;                                                         // of the list [sigma]
+    NeighbourList::Members members = NeighbourList::Members::with_own_images;  // or every point
+  };
+  // `reaches`: how far sites must see each other, species x species, symmetric [sigma].
+  Sites(const Box& box, const ParticleLayout& layout, std::vector<double> reaches, std::size_t states,
+        const kernels::KernelTable& table, const Options& options);
+
+  void move_to(const AlignedArray& positions);
+
+  const Box& box() const { return box_; }
+  const ParticleLayout& layout() const { return layout_; }
+  const kernels::KernelTable& kernels() const { return *table_; }
+  std::size_t species() const { return layout_.blocks().size(); }
+  std::size_t states() const { return states_.states; }
+  const AlignedArray& positions() const { return positions_; }
+  NeighbourList& list() { return list_; }
+  const NeighbourList& list() const { return list_; }
+  SiteStates& site_states() { return states_; }
+  const SiteStates& site_states() const { return states_; }
+
+  // visit(slot, other's slot, {r - r_other}) for every pair of the list, once from each end, images as sites of their own; some are
+  // out of reach. By one thread.
+  template <class Visit>
+  void for_each_pair(Visit visit) const;
+
+  // For kernels. body(block, its rows, scratch) for every block, shared by threads, with a scratch that each makes once. Rows have
+  // the list's neighbours, or those that are near now, where a part has said so since move_to().
+  template <class MakeScratch, class Body>
+  void for_each_block(MakeScratch make_scratch, Body body) const;
+  // Lets points carry the number of each site, or what kernels need of the probabilities.
+  void put_values(const AlignedArray& per_slot) { list_.set_values(per_slot, 1); }
+  void put_states();
+  // Room for who is near in a block, for kernels::KernelTable::state_densities; who takes it for one block takes it for all.
+  struct Near {
+    std::uint32_t *places, *lengths;
+    double* slopes;
+    const double* reaches_squared;
+  };
+  Near near(std::size_t block);
+  void use_near() { near_known_ = true; }
+  // `row_states`: room for block_rows x states, overwritten.
+  kernels::StateProbabilities states_of(const kernels::NeighbourRows& rows, double* row_states) const;
+
+  void exchange(Archive& archive) { list_.exchange(archive); }
+
+ private:
+  Box box_;
+  ParticleLayout layout_;
+  const kernels::KernelTable* table_;
+  NeighbourList list_;
+  AlignedArray positions_;
+  std::vector<double> reaches_squared_;
+  bool near_known_ = false;
+  std::vector<AlignedVector<std::uint32_t>> near_;  // as the list has its neighbours
+  std::vector<AlignedArray> near_slopes_;
+  AlignedVector<std::uint32_t> near_lengths_;  // of all blocks
+  SiteStates states_;
+  AlignedArray groups_;  // from three states on, of all points: four states, and again four
+};
+
+// What is summed up. Each part adds its own.
+struct StateSums {
+  enum class Wanted { energy, gradient, stress };
+
+  Wanted wanted;
+  AlignedArray& gradient;  // dU/dr, 3 x slots; may be left alone where only the energy is wanted
+  AlignedArray& slopes;    // dU/dp, slots x states; likewise
+  double energy = 0.0;
+  double virial = 0.0;                    // sum r.f
+  std::array<double, 6> virial_tensor{};  // where the stress is wanted
+
+  // A pair's (or one end's, at half `weight`) virial from -u'/r and its separation.
+  void add_virial(double pull, const std::array<double, 3>& d, double weight);
+};
+
+// One number of each site that its state follows.
+class OrderParameter {
+ public:
+  virtual ~OrderParameter() = default;
+  // How far sites of each pair of species must see each other, species x species [sigma]; empty: not at all.
+  virtual std::vector<double> reaches() const { return {}; }
+  virtual void evaluate(Sites& sites, AlignedArray& values) = 0;  // per slot
+  // Adds multipliers[slot] d value[slot]/dr to the gradient, for all sites, and its virial.
+  virtual void add_gradient(Sites& sites, const AlignedArray& multipliers, StateSums& sums) = 0;
+};
+
+// One state of one site: p, dp/d(order parameter), ln p. The logarithm stays finite where p underflows to zero; where the slope is
+// zero it is not looked at.
+struct StateProbability {
+  double p = 0.0, slope = 0.0, logarithm = 0.0;
+};
+
+// How the probabilities of a site follow from its order parameter. They add up to one.
+class StateResponse {
+ public:
+  virtual ~StateResponse() = default;
+  virtual std::size_t states() const = 0;
+  virtual void evaluate(std::size_t species, double value, std::span<StateProbability> states) const = 0;
+};
+
+// A potential of pairs or of more sites that depends on their states.
+class StatePotential {
+ public:
+  virtual ~StatePotential() = default;
+  virtual std::vector<double> reaches() const { return {}; }  // as OrderParameter's
+  // Adds energy, gradient and virial at the probabilities sites.site_states(), and dU/dp. Called in every step, with output or
+  // without.
+  virtual void add(Sites& sites, StateSums& sums) = 0;
+};
+
+template <class Visit>
+void Sites::for_each_pair(Visit visit) const {
+  for (std::size_t b = 0; b < list_.block_count(); ++b) {
+    const kernels::NeighbourRows rows = list_.rows_of(b);
+    const std::uint32_t *places = rows.neighbours, *length = rows.lengths;
+    for (std::size_t k = 0; k < rows.row_count; ++k)
+      for (std::size_t s = 0; s < rows.species_count; ++s, ++length) {
+        const double* own = rows.points + rows.rows[k];
+        for (std::uint32_t j = 0; j < *length; ++j) {
+          const double* other = rows.points + places[j];
+          visit(std::size_t{list_.slot_at(rows.rows[k])}, std::size_t{list_.slot_at(places[j])},
+                std::array<double, 3>{own[0] - other[0], own[1] - other[1], own[2] - other[2]});
+        }
+        places += (*length + kernels::slot_padding - 1) / kernels::slot_padding * kernels::slot_padding;
+      }
+  }
+}
+
+template <class MakeScratch, class Body>
+void Sites::for_each_block(MakeScratch make_scratch, Body body) const {
+  for_each_part(list_.parts(), [&](int part) {
+    auto scratch = make_scratch();
+    for (std::size_t b = list_.first_block(part); b < list_.first_block(part + 1); ++b) {
+      kernels::NeighbourRows rows = list_.rows_of(b);
+      if (near_known_) {
+        rows.neighbours = near_[list_.array_of(b)].data() + list_.first_neighbour(b);
+        rows.lengths = near_lengths_.data() + NeighbourList::block_rows * rows.species_count * b;
+      }
+      body(b, rows, scratch);
+    }
+  });
+}
+
+}  // namespace lanescape

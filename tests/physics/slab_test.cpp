@@ -1,0 +1,79 @@
+#include "run/slab_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dispatch/isa.hpp"
+#include "refusal.hpp"
+
+namespace lanescape {
+namespace {
+
+SlabOptions small_slab() {
+  SlabOptions options;
+  options.particles = 512;
+  options.width = 8.0;
+  options.length = 24.0;
+  options.equilibration_steps = 3000;
+  options.sampling_steps = 2000;
+  options.bins = 24;
+  return options;
+}
+
+TEST(Slab, LiquidIsInTheDenseStateAndVapourInTheOther) {
+  SilentMonitor monitor;
+  const SlabProfiles profiles = run_slab(liquid_vapour(), small_slab(), choose_isa("auto"), monitor);
+  EXPECT_EQ(profiles.samples, 100U);
+  EXPECT_NEAR(profiles.temperature, 0.8, 0.04);
+  double sites = 0.0, vapour_sites = 0.0, vapour_density = 0.0;
+  for (std::size_t bin = 0; bin < 24; ++bin) {
+    sites += profiles.sites[bin];
+    const double off = std::abs(profiles.z[bin]);
+    if (profiles.sites[bin] > 0.0) {
+      EXPECT_NEAR(profiles.probability[0][bin] + profiles.probability[1][bin], 1.0, 1e-12);
+    }
+    if (off < 3.0) {
+      EXPECT_GT(profiles.density[bin], 0.6);
+      EXPECT_LT(profiles.density[bin], 0.9);
+      EXPECT_GT(profiles.probability[0][bin], 0.9);
+      EXPECT_GT(profiles.local_density[bin], 7.0);
+    }
+    if (off > 9.0) {
+      vapour_sites += profiles.sites[bin];
+      vapour_density += profiles.sites[bin] * profiles.probability[0][bin];
+      EXPECT_LT(profiles.density[bin], 0.1);
+    }
+  }
+  EXPECT_EQ(sites, 512.0 * 100.0);
+  EXPECT_LT(vapour_density, 0.3 * vapour_sites + 1.0);
+}
+
+TEST(Slab, DoesNotDependOnTheNumberOfThreads) {
+  SilentMonitor monitor;
+  SlabOptions options = small_slab();
+  options.equilibration_steps = 100;
+  options.sampling_steps = 100;
+  const SlabProfiles one = run_slab(liquid_vapour(), options, choose_isa("auto"), monitor);
+  options.threads = 2;
+  const SlabProfiles two = run_slab(liquid_vapour(), options, choose_isa("auto"), monitor);
+  EXPECT_EQ(one.last.positions, two.last.positions);
+  EXPECT_EQ(one.probability, two.probability);
+}
+
+TEST(Slab, RefusesWhatDoesNotFit) {
+  using testing::refusal;
+  SilentMonitor monitor;
+  const auto refused = [&](auto change) {
+    SlabOptions options = small_slab();
+    change(options);
+    return refusal([&] { run_slab(liquid_vapour(), options, choose_isa("auto"), monitor); });
+  };
+  EXPECT_NE(refused([](SlabOptions& o) { o.particles = 5000; }).find("do not fit"), std::string::npos);
+  EXPECT_NE(refused([](SlabOptions& o) { o.particles = 0; }).find("particles"), std::string::npos);
+  EXPECT_NE(refused([](SlabOptions& o) { o.interval = 0; }).find("interval"), std::string::npos);
+  EXPECT_NE(refused([](SlabOptions& o) { o.temperature = -1.0; }).find("temperature"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lanescape
