@@ -1073,8 +1073,8 @@ class Resuming(ProgramTest):
 
     def test_interrupted_scans_and_growth_resume_to_the_same_bits(self):
         for name, arguments, checkpoint in (
-                ("scan", with_options(Insertions.SCAN, "--states", "0.4:2.5,0.5:2,0.6:2", "--equilibration-steps", "20000"), "scan.h5"),
-                ("growth", with_options(Insertions.GROWTH, "--particles", "256", "--rows", "20", "--rate", "0.02"), "densification.h5")):
+                ("scan", with_options(Insertions.SCAN, "--states", "0.4:2.5,0.5:2,0.6:2", "--equilibration-steps", "300000"), "scan.h5"),
+                ("growth", with_options(Insertions.GROWTH, "--particles", "256", "--rows", "40", "--rate", "0.001"), "densification.h5")):
             whole, out, killed = (self.folder / f"{name}-{which}" for which in ("whole", "cut", "killed"))
             self.done(*arguments, "--out", whole)
             result = self.interrupt(*arguments, out=out, after=f"checkpoint/{checkpoint}", with_signal=signal.SIGTERM)
