@@ -34,18 +34,11 @@ const Fluid& fluid_at(double density, double temperature) {
   const auto found = made.find({density, temperature});
   if (found != made.end()) return found->second;
   Fluid fluid;
-  fluid.configuration = fcc_start(fluid.model, particles, density, 1);
-  const ParticleLayout layout = ParticleLayout::in_space_order(fluid.configuration, 1);
-  LennardJonesLandscape landscape(fluid.model, fluid.configuration.box, layout, available_isas().front());
-  VelocityVerlet verlet(landscape, fluid.model, layout, layout.to_slots(fluid.configuration.positions), 2e-3);
-  verlet.draw_velocities(temperature, 1);
-  for (int step = 0; step < 2500; ++step) {
-    if (step % 50 == 0) verlet.rescale_to(temperature);
-    verlet.step();
-  }
-  fluid.configuration.positions = layout.to_user(verlet.position());
+  fluid.configuration = melted(fluid.model, particles, density, {temperature}, 2500, 50);
   fluid.configuration.wrap();
-  fluid.excess_energy = landscape.energy(verlet.position()) / static_cast<double>(particles);
+  const ParticleLayout layout = ParticleLayout::in_space_order(fluid.configuration, 1);
+  LennardJones interaction(fluid.model, fluid.configuration.box, layout, kernel_table(available_isas().front()));
+  fluid.excess_energy = interaction.energy(layout.to_slots(fluid.configuration.positions)) / static_cast<double>(particles);
   return made.emplace(std::pair{density, temperature}, std::move(fluid)).first->second;
 }
 

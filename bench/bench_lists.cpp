@@ -54,31 +54,9 @@ struct System {
 };
 
 Configuration melt(const LennardJonesModel& model, std::size_t particles, double density) {
-  Configuration configuration = fcc_start(model, particles, density, 1);
-  const ParticleLayout layout = ParticleLayout::in_space_order(configuration, model.species.size());
-  LennardJonesLandscape landscape(model, configuration.box, layout, available_isas().back());
-  VelocityVerlet verlet(landscape, model, layout, layout.to_slots(configuration.positions), 2e-3);
-  verlet.draw_velocities(5.0, 1);
-  for (const double temperature : {5.0, 1.0})
-    for (int step = 0; step < 1500; ++step) {
-      if (step % 100 == 0) verlet.rescale_to(temperature);
-      verlet.step();
-    }
-  configuration.positions = layout.to_user(verlet.position());
+  Configuration configuration = melted(model, particles, density, {5.0, 1.0}, 1500, 100, 2e-3, available_isas().back());
   configuration.wrap();
   return configuration;
-}
-
-Configuration repeated(const Configuration& base, std::size_t times) {
-  Configuration whole{base.box, {}, {}};
-  for (double& length : whole.box.length) length *= static_cast<double>(times);
-  for (std::size_t cell = 0; cell < times * times * times; ++cell) {
-    const std::array<std::size_t, 3> at = {cell / (times * times), cell / times % times, cell % times};
-    whole.species.insert(whole.species.end(), base.species.begin(), base.species.end());
-    for (std::size_t k = 0; k < base.positions.size(); ++k)
-      whole.positions.push_back(base.positions[k] + static_cast<double>(at[k % 3]) * base.box.length[k % 3]);
-  }
-  return whole;
 }
 
 // A particle, first, and all that is within reach of it, in a box so large that nothing else is.

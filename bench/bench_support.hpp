@@ -3,8 +3,10 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstddef>
+#include <initializer_list>
 #include <map>
 #include <string>
 #include <tuple>
@@ -31,25 +33,44 @@ inline LennardJonesModel kob_andersen_with(ImageRule images) {
   return model;
 }
 
-// A Kob-Andersen liquid of density 1.2: a lattice melted for 5 time units at T = 5 and cooled for as many at T = 1. The same bits
-// whichever kernels are timed later, since the least instruction set makes it.
+// A liquid made from a lattice: `steps` steps of molecular dynamics at each of these temperatures, put right every so many of them.
+// The same bits whichever kernels are timed later, if it is the least instruction set that makes it.
+inline Configuration melted(const LennardJonesModel& model, std::size_t particles, double density,
+                            std::initializer_list<double> temperatures, int steps, int rescale_interval, double time_step = 2e-3,
+                            Isa isa = available_isas().front()) {
+  Configuration configuration = fcc_start(model, particles, density, 1);
+  const ParticleLayout layout = ParticleLayout::in_space_order(configuration, model.species.size());
+  LennardJonesLandscape landscape(model, configuration.box, layout, isa);
+  VelocityVerlet verlet(landscape, model, layout, layout.to_slots(configuration.positions), time_step);
+  verlet.draw_velocities(*temperatures.begin(), 1);
+  for (const double temperature : temperatures)
+    for (int step = 0; step < steps; ++step) {
+      if (step % rescale_interval == 0) verlet.rescale_to(temperature);
+      verlet.step();
+    }
+  configuration.positions = layout.to_user(verlet.position());
+  return configuration;
+}
+
+// A configuration repeated along the axes: each particle has the very surroundings of one in the base.
+inline Configuration repeated(const Configuration& base, std::size_t times) {
+  Configuration whole{base.box, {}, {}};
+  for (double& length : whole.box.length) length *= static_cast<double>(times);
+  for (std::size_t cell = 0; cell < times * times * times; ++cell) {
+    const std::array<std::size_t, 3> at = {cell / (times * times), cell / times % times, cell % times};
+    whole.species.insert(whole.species.end(), base.species.begin(), base.species.end());
+    for (std::size_t k = 0; k < base.positions.size(); ++k)
+      whole.positions.push_back(base.positions[k] + static_cast<double>(at[k % 3]) * base.box.length[k % 3]);
+  }
+  return whole;
+}
+
+// A Kob-Andersen liquid of density 1.2: melted for 5 time units at T = 5 and cooled for as many at T = 1.
 inline const Configuration& liquid(std::size_t particles) {
   static std::map<std::size_t, Configuration> made;
   const auto found = made.find(particles);
   if (found != made.end()) return found->second;
-  const LennardJonesModel model = kob_andersen();
-  Configuration configuration = fcc_start(model, particles, 1.2, 1);
-  const ParticleLayout layout(configuration.species, model.species.size());
-  LennardJonesLandscape landscape(model, configuration.box, layout, available_isas().front());
-  VelocityVerlet verlet(landscape, model, layout, layout.to_slots(configuration.positions), 1e-3);
-  verlet.draw_velocities(5.0, 1);
-  for (const double temperature : {5.0, 1.0})
-    for (int step = 0; step < 5000; ++step) {
-      if (step % 500 == 0) verlet.rescale_to(temperature);
-      verlet.step();
-    }
-  configuration.positions = layout.to_user(verlet.position());
-  return made.emplace(particles, std::move(configuration)).first->second;
+  return made.emplace(particles, melted(kob_andersen(), particles, 1.2, {5.0, 1.0}, 5000, 500, 1e-3)).first->second;
 }
 
 // A liquid of hard spheres: grown from a dilute melt and equilibrated for 200 collisions per particle. The same bits whichever
