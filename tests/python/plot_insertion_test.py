@@ -2,17 +2,13 @@
 """tools/plot.py on small made-up folders of insertion: which figures it writes, what they show, and how it refuses."""
 
 import json
-import struct
-import subprocess
 import sys
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
+from plot_support import SCRIPT, PlotTest
 
-TOOLS = Path(__file__).resolve().parents[2] / "tools"
-sys.path.insert(0, str(TOOLS))
+sys.path.insert(0, str(SCRIPT.parent))
 import equation_of_state  # noqa: E402
 import plot_insertion  # noqa: E402
 
@@ -40,40 +36,14 @@ def growth_rows(count=8):
     return [f"{k},{0.42 + 0.04 * k},{2.5 + 0.1 * k},{1 + k},{-2.5 - 0.1 * k},{1.27 - 0.01 * (k % 3)},1,10,0" for k in range(count)]
 
 
-class PlotInsertion(unittest.TestCase):
+class PlotInsertion(PlotTest):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
+        super().setUp()
         (self.folder / "result.json").write_text('{"outcome": "done"}')
         (self.folder / "run.toml").write_text(RUN)
 
     def write(self, name, header, rows):
         (self.folder / name).write_text("\n".join([header, *rows]) + "\n")
-
-    def plot(self):
-        return subprocess.run([sys.executable, str(TOOLS / "plot.py"), str(self.folder)], capture_output=True, text=True, check=False)
-
-    def figures(self):
-        return sorted(file.name for file in self.folder.glob("*.png"))
-
-    def assert_draws(self, *names):
-        run = self.plot()
-        self.assertEqual((run.returncode, run.stdout, run.stderr), (0, "", ""))
-        self.assertEqual(self.figures(), sorted(names))
-        for name in names:
-            data = (self.folder / name).read_bytes()
-            self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
-            width, height = struct.unpack(">II", data[16:24])
-            self.assertTrue(900 <= width <= 2500 and 700 <= height <= 2500, f"{name}: {width} x {height}")
-            self.assertGreater(len(data), 20_000, name)
-
-    def assert_refuses(self, named):
-        run = self.plot()
-        self.assertEqual((run.returncode, run.stdout), (2, ""))
-        self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
-        self.assertIn(named, run.stderr)
-        self.assertEqual(self.figures(), [])
 
     def test_a_scan_gives_cost_and_distance(self):
         self.write("scan.csv", SCAN_HEADER, scan_rows())

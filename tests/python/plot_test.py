@@ -2,14 +2,10 @@
 """tools/plot.py on small made-up run folders: which figures it writes, and how it refuses."""
 
 import json
-import struct
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-SCRIPT = Path(__file__).resolve().parents[2] / "tools" / "plot.py"
+from plot_support import PlotTest
+
 PATH_HEADER = "step,length,distance_to_goal,energy,direct_fraction,participation_ratio"
 END_POINT_HEADER = "step,time,temperature,potential_energy_per_particle,energy_per_particle,phase"
 
@@ -33,12 +29,7 @@ def write_table(file, header, rows):
     file.write_text("\n".join([header, *rows]) + "\n")
 
 
-class Plot(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-
+class Plot(PlotTest):
     def write_run(self, summaries, rows=100, gap=0.01):
         (self.folder / "result.json").write_text(json.dumps({"paths": summaries, "model": "kob-andersen"}))
         (self.folder / "run.toml").write_text("temperature = 1.0\n")
@@ -49,30 +40,6 @@ class Plot(unittest.TestCase):
     def write_end_points(self, phases):
         write_table(self.folder / "endpoints-trace.csv", END_POINT_HEADER, end_point_rows(phases))
         write_table(self.folder / "radial-distribution.csv", "r,g_Ni_Ni,g_Ni_P,g_P_P", [f"{0.1 * k},{k % 2},1,0" for k in range(20)])
-
-    def plot(self):
-        return subprocess.run([sys.executable, str(SCRIPT), str(self.folder)], capture_output=True, text=True, check=False)
-
-    def figures(self):
-        return sorted(file.name for file in self.folder.glob("*.png"))
-
-    def assert_draws(self, *names):
-        run = self.plot()
-        self.assertEqual((run.returncode, run.stdout, run.stderr), (0, "", ""))
-        self.assertEqual(self.figures(), sorted(names))
-        for name in names:
-            data = (self.folder / name).read_bytes()
-            self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
-            width, height = struct.unpack(">II", data[16:24])
-            self.assertTrue(900 <= width <= 2500 and 700 <= height <= 2500, f"{name}: {width} x {height}")
-            self.assertGreater(len(data), 20_000, name)
-
-    def assert_refuses(self, named):
-        run = self.plot()
-        self.assertEqual((run.returncode, run.stdout), (2, ""))
-        self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
-        self.assertIn(named, run.stderr)
-        self.assertEqual(self.figures(), [])
 
     def test_one_path_and_its_equilibration_give_two_figures(self):
         self.write_run([path_summary()])
