@@ -163,13 +163,14 @@ DensificationResult result_of(const DensificationState& state) {
 
 }  // namespace
 
-void DensificationOptions::check(const FluidState& start, double temperature) const {
+void DensificationOptions::check(const FluidState& start) const {
   const auto positive = [](const char* what, double value) {
     if (!(value > 0.0) || !std::isfinite(value))
       throw_bad_input(fmt::format("{} {} is not allowed: it must be finite and above 0", what, value));
   };
   const Box& box = start.configuration.box;
   const double density = static_cast<double>(start.configuration.size()) / box.volume();
+  positive("temperature", temperature);
   positive("time step", time_step);
   positive("rate of density", rate);
   if (time_step > 0.02)
@@ -191,13 +192,15 @@ void DensificationOptions::check(const FluidState& start, double temperature) co
 DensificationResult run_densification(const LennardJonesModel& model, const FluidState& start, const DensificationOptions& options,
                                       Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor) {
   const auto file = checkpoint.folder / "densification.h5";
+  options.check(start);
   DensificationState state{.fluid = start, .history = {}, .record = {}};
-  {
+  const bool resumed = checkpoint.enabled() && checkpoint.resume && load_checkpoint(file, state);
+  if (!resumed) {
     MovingFluid fluid(model, start, options.time_step, isa, options.threads);
-    options.check(start, fluid.temperature());
+    equilibrate(fluid, options.temperature, options.equilibration_steps);
+    state.fluid = fluid.state();
     state.ledger = fluid.potential().energy + fluid.kinetic_energy();
   }
-  if (checkpoint.enabled() && checkpoint.resume) load_checkpoint(file, state);
   Densification densification(model, options, isa, state, start.configuration.size());
   bool interrupted = false;
   auto last = Clock::now();

@@ -15,17 +15,19 @@ namespace lanescape {
 // A periodic fluid whose density grows by insertion at constant energy per particle, with no thermostat ([U] IV.A, figure 3):
 // places have the fluid's mean excess energy per particle, velocities are Maxwell's at its temperature.
 struct DensificationOptions {
-  double final_density = 0.8;  // [sigma^-3]
-  double rate = 0.005;         // d rho/dt
-  double time_step = 0.002;    // [sigma sqrt(m/epsilon)]
-  std::uint64_t rows = 40;     // of the record, equal steps of density
-  InsertionOptions insertion;  // its target is not looked at
-  int species = 0;             // of what is inserted
+  double temperature = 2.5;                    // of the start, put right while it equilibrates
+  std::uint64_t equilibration_steps = 10'000;  // before anything is inserted
+  double final_density = 0.8;                  // [sigma^-3]
+  double rate = 0.005;                         // d rho/dt
+  double time_step = 0.002;                    // [sigma sqrt(m/epsilon)]
+  std::uint64_t rows = 40;                     // of the record, equal steps of density
+  InsertionOptions insertion;                  // its target is not looked at
+  int species = 0;                             // of what is inserted
   int threads = 1;
 
   // Throws Error(bad_input) naming what is out of range; a rate above one insertion per volume of (3 sigma)^3 and collision time
   // 1/(4 rho sqrt(pi T)) is.
-  void check(const FluidState& start, double temperature) const;
+  void check(const FluidState& start) const;
 };
 
 // Means over a step of density.
@@ -48,7 +50,7 @@ struct DensificationResult {
   double seconds = 0.0;
 };
 
-// Ends early at the first insertion that finds no place.
+// `start`: a lattice will do. Ends early at the first insertion that finds no place.
 DensificationResult run_densification(const LennardJonesModel& model, const FluidState& start, const DensificationOptions& options,
                                       Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor);
 

@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include <cmath>
-
 #include "core/error.hpp"
 #include "insert_runs.hpp"
 #include "io/extended_xyz.hpp"
@@ -11,11 +9,10 @@
 namespace lanescape::program {
 
 Json run_growth(InsertState& state, const Options& options, const LennardJonesModel& model, Isa isa, int& status) {
-  const double temperature = state.temperature.value_or(2.5);
-  if (!(temperature > 0.0) || !std::isfinite(temperature))
-    throw_bad_input(fmt::format("--temperature: {} is not allowed: it must be finite and above 0", temperature));
   if (!state.file.empty() && state.density) throw_bad_input("--density is not allowed with FILE, which has its own");
   DensificationOptions with;
+  with.temperature = state.temperature.value_or(with.temperature);
+  with.equilibration_steps = state.equilibration_steps;
   with.final_density = *state.densify;
   with.rate = state.rate;
   with.time_step = state.time_step;
@@ -25,22 +22,17 @@ Json run_growth(InsertState& state, const Options& options, const LennardJonesMo
   with.insertion = state.setup.resolve(state.common.seed);
   if (state.setup.number({"mean"}))
     throw_bad_input("--energy: a number is not allowed with --densify: places have the mean excess energy per particle");
-  FluidState start = fluid_on_lattice(model, state.particles, state.density.value_or(0.4), temperature, state.common.seed);
+  FluidState start = fluid_on_lattice(model, state.particles, state.density.value_or(0.4), with.temperature, state.common.seed);
   if (!state.file.empty()) {
     start.configuration = read_first_frame(state.file, model);
-    const FluidState velocities = fluid_on_lattice(model, start.configuration.size(), 0.1, temperature, state.common.seed);
+    const FluidState velocities = fluid_on_lattice(model, start.configuration.size(), 0.1, with.temperature, state.common.seed);
     start.velocities = velocities.velocities;
   }
   check_cutoff(model, start.configuration.box);
-  with.check(start, temperature);
+  with.check(start);
   OutputFolder folder = open_folder(state.common);
   folder.write_run_file("insert", options.resolved());
   TerminalMonitor monitor(state.common.quiet);
-  {
-    MovingFluid fluid(model, start, state.time_step, isa, state.common.threads);
-    equilibrate(fluid, temperature, state.equilibration_steps);
-    start = fluid.state();
-  }
   const DensificationResult run =
       run_densification(model, start, with, isa, {folder.checkpoints(), !state.common.resume.empty()}, monitor);
   Json result;
