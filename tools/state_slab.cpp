@@ -8,11 +8,11 @@
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <string>
 
 #include "core/error.hpp"
+#include "io/atomic_file.hpp"
 #include "io/extended_xyz.hpp"
 #include "io/model_file.hpp"
 #include "run/slab_run.hpp"
@@ -32,23 +32,18 @@ void write_profiles(std::ostream& out, const SlabProfiles& profiles) {
   }
 }
 
-std::ofstream open(const std::filesystem::path& path) {
-  std::ofstream out(path);
-  if (!out) throw_bad_input(fmt::format("--out: {} cannot be written", path.string()));
-  return out;
-}
-
 void run(const std::string& model_file, const SlabOptions& options, const std::filesystem::path& folder) {
   const Model model = model_file.empty() ? named_model("ucg") : read_model_file(model_file);
   const auto* states = std::get_if<StateMixtureModel>(&model);
   if (!states) throw_bad_input(fmt::format("{}: a model of kind ucg is needed", model_file));
+  options.check();
+  prepare_output_folder(folder);
   SilentMonitor monitor;
   const SlabProfiles profiles = run_slab(*states, options, choose_isa("auto"), monitor);
-  std::error_code ignored;
-  std::filesystem::create_directories(folder, ignored);
-  std::ofstream table = open(folder / "profiles.csv"), last = open(folder / "last.extxyz");
-  write_profiles(table, profiles);
-  write_frame(last, profiles.last, *states, {{"temperature", fmt::format("{}", options.temperature)}});
+  write_atomically(folder / "profiles.csv", [&](std::ostream& out) { write_profiles(out, profiles); });
+  write_atomically(folder / "last.extxyz", [&](std::ostream& out) {
+    write_frame(out, profiles.last, *states, {{"temperature", fmt::format("{}", options.temperature)}});
+  });
   fmt::print("{} samples at a kinetic temperature of {:.4f}\n", profiles.samples, profiles.temperature);
 }
 
