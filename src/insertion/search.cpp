@@ -133,9 +133,11 @@ double cubic_minimum(double value0, double slope0, double value1, double slope1)
   return part > 0.0 && part < 1.0 ? part : 0.5;
 }
 
-Point difference(const Point& to, const Point& from) { return {to[0] - from[0], to[1] - from[1], to[2] - from[2]}; }
-
 }  // namespace
+
+InsertionSearch::Segment::Segment(const Site& a, const Site& b) : from(a), to(b), along{} {
+  for (std::size_t axis = 0; axis < 3; ++axis) along[axis] = b.position[axis] - a.position[axis];
+}
 
 InsertionSearch::Site InsertionSearch::line_minimum(const Segment& segment, double sign) {
   const auto slope = [&](const Site& site) { return sign * dot(site.gradient, segment.along); };
@@ -162,7 +164,7 @@ InsertionSearch::Site InsertionSearch::line_minimum(const Segment& segment, doub
 }
 
 // Newton's method along the segment, bisection where it leaves what is known to hold the target.
-InsertionSearch::Site InsertionSearch::bracketed(Segment segment, double sign) {
+InsertionSearch::Site InsertionSearch::bracketed(const Segment& segment, double sign) {
   double low = 0.0, high = 1.0;  // sign (U - U0) is positive at low, negative at high
   const auto miss = [&](const Site& site) { return std::abs(site.energy - options_->target); };
   const bool from_low = miss(segment.from) < miss(segment.to);
@@ -195,7 +197,7 @@ bool InsertionSearch::usher_trial(Site& site) {
         options_->method == InsertionMethod::usher_indirect ||
         (options_->method == InsertionMethod::usher_near && std::abs(next.energy - options_->target) < std::abs(options_->target));
     if (!pursued || ++uphill_in_a_row == most_uphill_in_a_row) return false;
-    site = line_minimum({site, next, difference(next.position, site.position)}, sign);
+    site = line_minimum({site, next}, sign);
   }
   return true;
 }
@@ -209,7 +211,7 @@ bool InsertionSearch::descent_trial(Site& site) {
     Site next = step(site, sign, largest_step_);
     if (sign_at(next) == sign && !accepted(next) && sign * (next.energy - site.energy) > 0.0) {
       if (++uphill_in_a_row == most_uphill_in_a_row) return false;
-      const Site least = line_minimum({site, next, difference(next.position, site.position)}, sign);
+      const Site least = line_minimum({site, next}, sign);
       if (accepted(least) || sign_at(least) != sign) {
         next = least;
       } else {
@@ -224,7 +226,7 @@ bool InsertionSearch::descent_trial(Site& site) {
       site = next;
       continue;
     }
-    site = bracketed({site, next, difference(next.position, site.position)}, sign);
+    site = bracketed({site, next}, sign);
     return accepted(site);
   }
   return true;

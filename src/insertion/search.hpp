@@ -40,8 +40,9 @@ class InsertionSearch {
   };
   // The energy along a segment, of which both ends are known.
   struct Segment {
+    Segment(const Site& a, const Site& b);
     Site from, to;
-    Point along;  // from the one to the other, through any face of the box
+    Point along;  // from the one to the other
   };
 
   Site probe(const Point& position);
@@ -61,7 +62,7 @@ class InsertionSearch {
   // The least of sign U on a segment that first falls and ends higher, or a place, or where the target has been crossed.
   Site line_minimum(const Segment& segment, double sign);
   // A place between two sites on either side of the target.
-  Site bracketed(Segment segment, double sign);
+  Site bracketed(const Segment& segment, double sign);
   bool trial(Site& site) { return options_->method == InsertionMethod::descent ? descent_trial(site) : usher_trial(site); }
   void finish(const Site& site);
   bool is_near(const Point& a, const Point& b) const;

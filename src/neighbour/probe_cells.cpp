@@ -6,8 +6,9 @@
 namespace lanescape {
 namespace {
 
-// As many as fill a vector in the middle column of a probe's reach: measured, as are the room and the height of cells.
+// As many as fill a vector in the middle column of a probe's reach.
 constexpr double points_per_run = 8.0;
+// Low cells: a run ends near where the reach does.
 constexpr double cells_per_reach = 6.0;
 
 std::size_t cell_along(const kernels::GridShape& shape, std::size_t axis, double x) {
@@ -70,12 +71,12 @@ void ProbeCells::lay_out(const std::vector<Point>& images) {
     const Place place = place_of(image);
     ++first_[place.column * stride + place.cell];
   }
-  room_ = 4 + images.size() / columns / 4;
+  const std::size_t room = 4 + images.size() / columns / 4;
   // From counts to ends; points are then put in from the last to the first.
   std::uint32_t next = 0;
   for (std::size_t column = 0; column < columns; ++column) {
     for (std::size_t cell = 0; cell < stride; ++cell) next = first_[column * stride + cell] += next;
-    next += static_cast<std::uint32_t>(room_);
+    next += static_cast<std::uint32_t>(room);
     limit_[column] = next;
   }
   for (auto& column : columns_) column.assign(next + kernels::slot_padding, 0.0);

@@ -39,7 +39,7 @@ class ProbeCells {
   template <class Visit>
   void for_each_image(const Point& point, Visit visit) const;
   void insert_image(const Point& image);
-  // Moves all points into columns with room for `room_` more each.
+  // Moves all points into columns with room for a quarter more, and four.
   void lay_out(const std::vector<Point>& images);
   std::vector<Point> all_images() const;
 
@@ -47,7 +47,6 @@ class ProbeCells {
   double reach_;
   std::size_t size_ = 0;
   kernels::GridShape shape_{};
-  std::size_t room_ = 0;
   AlignedVector<std::uint32_t> first_;  // cells[2] + 1 per column
   std::vector<std::uint32_t> limit_;    // of each column's points
   std::array<AlignedArray, 3> columns_;
