@@ -30,7 +30,7 @@ TEST_P(ProbeParity, KernelsAgreeWithTheReferenceOnEveryCase) {
   }
 }
 
-// 500 particles of two species in a box of several columns of cells, where the verification's cases have few.
+// Two species in a box of several columns of cells.
 Configuration large_fluid() {
   for (const auto& one : every_case())
     if (one.name == "kob-andersen N=257 all tail") return one.configuration;
