@@ -44,9 +44,9 @@ struct EdgeLimits {
 
 // Adds one vector of pairs, given 1/r^2 (zero out of range), to the power sums; returns -u'(r)/r.
 LANESCAPE_INLINE Vector interact(const Potential& u, Vector inverse, Mask in_range, PowerSums& sums) {
-  const Vector sixth = inverse * inverse * inverse;
-  add_powers(sums, sixth, in_range);
-  return pull(u, inverse, sixth);
+  const Vector rinv6 = inverse * inverse * inverse;
+  add_powers(sums, rinv6, in_range);
+  return force_over_r(u, inverse, rinv6);
 }
 
 template <Output output>
@@ -67,17 +67,17 @@ LANESCAPE_INLINE Displacement next_image(const Displacement& d, const Box& box, 
     const Vector largest = maximum(ax, maximum(ay, az));
     r2 = subtract_product(r2 + broadcast(1.0), broadcast(2.0), largest);
     const Vector one = broadcast(1.0);
-    return {choose(less(ax, largest), d.x, d.x - with_sign_of(one, d.x)),
-            choose(less(ay, largest), d.y, d.y - with_sign_of(one, d.y)),
-            choose(less(az, largest), d.z, d.z - with_sign_of(one, d.z))};
+    return {select(less(ax, largest), d.x, d.x - copy_sign(one, d.x)),
+            select(less(ay, largest), d.y, d.y - copy_sign(one, d.y)),
+            select(less(az, largest), d.z, d.z - copy_sign(one, d.z))};
   } else {
     const auto& l = box.length;
     const auto growth = [](Vector length, Vector a) { return length * (length - (a + a)); };
     const Vector gx = growth(l.x, ax), gy = growth(l.y, ay), gz = growth(l.z, az);
     const Vector least = minimum(gx, minimum(gy, gz));
     r2 = r2 + least;
-    return {choose(less(least, gx), d.x, d.x - with_sign_of(l.x, d.x)), choose(less(least, gy), d.y, d.y - with_sign_of(l.y, d.y)),
-            choose(less(least, gz), d.z, d.z - with_sign_of(l.z, d.z))};
+    return {select(less(least, gx), d.x, d.x - copy_sign(l.x, d.x)), select(less(least, gy), d.y, d.y - copy_sign(l.y, d.y)),
+            select(less(least, gz), d.z, d.z - copy_sign(l.z, d.z))};
   }
 }
 
@@ -126,7 +126,7 @@ LANESCAPE_INLINE Mask valid_in_row(const EdgeLimits& limits, std::size_t column,
     return lanes_below(static_cast<std::ptrdiff_t>(n) - static_cast<std::ptrdiff_t>(column));
   };
   if (row >= limits.row_count) return lanes_below(0);
-  return limits.same_species ? excluding(before(limits.column_count), before(row + 1)) : before(limits.column_count);
+  return limits.same_species ? and_not(before(limits.column_count), before(row + 1)) : before(limits.column_count);
 }
 
 // Four rows against the column vectors [first, last) of one species block, whose scaled positions start at s and gradient at
@@ -210,9 +210,9 @@ void all_pairs(const LjInput& in, double* gradient, LjOutput& out) {
       if constexpr (output != Output::energy) {
         double* g = gradient + row_block.begin + i;
         const auto& t = rows.gradient;
-        add_lane_sums(g, t[0].x, t[1].x, t[2].x, t[3].x);
-        add_lane_sums(g + in.slots, t[0].y, t[1].y, t[2].y, t[3].y);
-        add_lane_sums(g + 2 * in.slots, t[0].z, t[1].z, t[2].z, t[3].z);
+        reduce_add_four(g, t[0].x, t[1].x, t[2].x, t[3].x);
+        reduce_add_four(g + in.slots, t[0].y, t[1].y, t[2].y, t[3].y);
+        reduce_add_four(g + 2 * in.slots, t[0].z, t[1].z, t[2].z, t[3].z);
       }
     }
   }
@@ -220,10 +220,10 @@ void all_pairs(const LjInput& in, double* gradient, LjOutput& out) {
     const Vector inverse_length = broadcast(1.0 / in.box[0]);
     for (std::size_t i = 0; i < 3 * in.slots; i += lanes) store(gradient + i, load(gradient + i) * inverse_length);
   }
-  out.energy = sum_lanes(totals.energy);
-  out.virial = sum_lanes(totals.virial);
+  out.energy = reduce_add(totals.energy);
+  out.virial = reduce_add(totals.virial);
   if constexpr (output == Output::stress)
-    for (std::size_t k = 0; k < 6; ++k) out.virial_tensor[k] = sum_lanes(totals.tensor[k]);
+    for (std::size_t k = 0; k < 6; ++k) out.virial_tensor[k] = reduce_add(totals.tensor[k]);
 }
 
 template <Output output>

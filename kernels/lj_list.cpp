@@ -24,20 +24,20 @@ struct RowSums {
 };
 
 template <Output output, bool masked>
-LANESCAPE_INLINE void pair_vector(const double* points, const std::uint32_t* places, const Displacement& row, const Potential& u,
+LANESCAPE_INLINE void pair_vector(const double* points, const std::uint32_t* offsets, const Displacement& row, const Potential& u,
                                   Mask valid, RowSums& sums, Totals& totals) {
   Displacement d;
-  prefetch(places + list_prefetch);
-  gather_points(points, places, d.x, d.y, d.z);
+  prefetch(offsets + list_prefetch);
+  gather_points(points, offsets, d.x, d.y, d.z);
   d = {d.x - row.x, d.y - row.y, d.z - row.z};
   const Vector r2 = squared_length(d);
   Mask in_range = less(r2, u.cutoff_squared);
   if constexpr (masked) in_range = both(in_range, valid);
   const Vector inverse = masked_reciprocal(in_range, r2);
-  const Vector sixth = inverse * inverse * inverse;
-  if constexpr (output != Output::force) add_powers(sums.powers, sixth, in_range);
+  const Vector rinv6 = inverse * inverse * inverse;
+  if constexpr (output != Output::force) add_powers(sums.powers, rinv6, in_range);
   if constexpr (output != Output::energy) {
-    const Vector w = pull(u, inverse, sixth);
+    const Vector w = force_over_r(u, inverse, rinv6);
     Displacement& g = sums.gradient;
     g = {multiply_add(w, d.x, g.x), multiply_add(w, d.y, g.y), multiply_add(w, d.z, g.z)};
     if constexpr (output == Output::stress) add_tensor(totals, d, w);
@@ -47,7 +47,7 @@ LANESCAPE_INLINE void pair_vector(const double* points, const std::uint32_t* pla
 template <Output output>
 LANESCAPE_INLINE void all_rows(const LjListInput& in, double* gradient, Totals& totals) {
   const NeighbourRows& list = in.list;
-  const std::uint32_t* places = list.neighbours;
+  const std::uint32_t* offsets = list.neighbours;
   const std::uint32_t* length = list.lengths;
   const Vector zero = broadcast(0.0);
   for (std::size_t k = 0; k < list.row_count; ++k) {
@@ -59,11 +59,11 @@ LANESCAPE_INLINE void all_rows(const LjListInput& in, double* gradient, Totals& 
       sums.powers = {};
       const std::size_t count = *length;
       std::size_t j = 0;
-      for (; j + lanes <= count; j += lanes) pair_vector<output, false>(list.points, places + j, row, u, {}, sums, totals);
+      for (; j + lanes <= count; j += lanes) pair_vector<output, false>(list.points, offsets + j, row, u, {}, sums, totals);
       if (j < count)
-        pair_vector<output, true>(list.points, places + j, row, u, lanes_below(static_cast<std::ptrdiff_t>(count - j)), sums,
+        pair_vector<output, true>(list.points, offsets + j, row, u, lanes_below(static_cast<std::ptrdiff_t>(count - j)), sums,
                                   totals);
-      places += (count + slot_padding - 1) / slot_padding * slot_padding;
+      offsets += (count + slot_padding - 1) / slot_padding * slot_padding;
       if constexpr (output != Output::force) add_sums(totals, u, sums.powers);
     }
     if constexpr (output != Output::energy)
@@ -76,10 +76,10 @@ void sum_list(const LjListInput& in, double* gradient, LjOutput& out) {
   Totals totals;
   all_rows<output>(in, gradient, totals);
   // Every pair was met from both ends.
-  out.energy = 0.5 * sum_lanes(totals.energy);
-  out.virial = 0.5 * sum_lanes(totals.virial);
+  out.energy = 0.5 * reduce_add(totals.energy);
+  out.virial = 0.5 * reduce_add(totals.virial);
   if constexpr (output == Output::stress)
-    for (std::size_t k = 0; k < 6; ++k) out.virial_tensor[k] = 0.5 * sum_lanes(totals.tensor[k]);
+    for (std::size_t k = 0; k < 6; ++k) out.virial_tensor[k] = 0.5 * reduce_add(totals.tensor[k]);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ LANESCAPE_INLINE FloatPotential broadcast_single(const LjSinglePair& p) {
 // instead leaves the worst error of a force at 6e-7 to 7e-7 and that of an energy as it is, for it is the pairs' own rounding; it
 // took about 1.3 to 1.7 times as long (4000 particles, AVX-512, Zen 4, separate runs on a busy machine).
 struct FloatPowerSums {
-  FloatVector sixth = broadcast_float(0.0F), twelfth = sixth, count = sixth;
+  FloatVector rinv6 = broadcast_float(0.0F), rinv12 = rinv6, count = rinv6;
 };
 
 struct RowSums {
@@ -41,23 +41,23 @@ struct RowSums {
 };
 
 template <Output output>
-LANESCAPE_INLINE void pair_vector(const std::int32_t* points, const std::uint32_t* places, const std::int32_t* row,
+LANESCAPE_INLINE void pair_vector(const std::int32_t* points, const std::uint32_t* offsets, const std::int32_t* row,
                                   const FloatPotential& u, FloatMask valid, RowSums& sums) {
   FloatDisplacement d;
-  prefetch(places + list_prefetch);
-  gather_differences(points, places, row, d.x, d.y, d.z);
+  prefetch(offsets + list_prefetch);
+  gather_differences(points, offsets, row, d.x, d.y, d.z);
   const FloatVector r2 = square_plus(d.z, square_plus(d.y, multiply(d.x, d.x)));
   const FloatMask in_range = both(valid, less(r2, u.cutoff_squared));
   const FloatVector inverse = masked_quotient(in_range, u.sigma_squared, r2);
-  const FloatVector sixth = multiply(multiply(inverse, inverse), inverse);
+  const FloatVector rinv6 = multiply(multiply(inverse, inverse), inverse);
   if constexpr (output != Output::force) {
     FloatPowerSums& powers = sums.powers;
-    powers.sixth = add(powers.sixth, sixth);
-    powers.twelfth = multiply_add(sixth, sixth, powers.twelfth);
-    powers.count = count_up(powers.count, in_range);
+    powers.rinv6 = add(powers.rinv6, rinv6);
+    powers.rinv12 = multiply_add(rinv6, rinv6, powers.rinv12);
+    powers.count = masked_increment(powers.count, in_range);
   }
   if constexpr (output != Output::energy) {
-    const FloatVector w = multiply(multiply(multiply_add(u.twelve_c12, sixth, u.minus_six_c6), sixth), inverse);
+    const FloatVector w = multiply(multiply(multiply_add(u.twelve_c12, rinv6, u.minus_six_c6), rinv6), inverse);
     FloatDisplacement& g = sums.gradient;
     g = {multiply_add(w, d.x, g.x), multiply_add(w, d.y, g.y), multiply_add(w, d.z, g.z)};
   }
@@ -66,7 +66,7 @@ LANESCAPE_INLINE void pair_vector(const std::int32_t* points, const std::uint32_
 template <Output output>
 LANESCAPE_INLINE void all_rows(const LjListInput& in, double* gradient, Totals& totals) {
   const NeighbourRows& list = in.list;
-  const std::uint32_t* places = list.neighbours;
+  const std::uint32_t* offsets = list.neighbours;
   const std::uint32_t* length = list.lengths;
   const FloatVector zero = broadcast_float(0.0F);
   const Vector unit = broadcast(list.fixed_unit);
@@ -78,10 +78,10 @@ LANESCAPE_INLINE void all_rows(const LjListInput& in, double* gradient, Totals& 
       const FloatPotential u = broadcast_single(in.single_pairs[s]);
       const std::size_t count = *length;
       for (std::size_t j = 0; j < count; j += float_lanes)
-        pair_vector<output>(list.fixed_points, places + j, row, u, float_lanes_below(count - j), sums);
-      places += (count + slot_padding - 1) / slot_padding * slot_padding;
+        pair_vector<output>(list.fixed_points, offsets + j, row, u, float_lanes_below(count - j), sums);
+      offsets += (count + slot_padding - 1) / slot_padding * slot_padding;
       if constexpr (output != Output::force) {
-        const PowerSums powers{add_halves(sums.powers.sixth), add_halves(sums.powers.twelfth), add_halves(sums.powers.count)};
+        const PowerSums powers{add_halves(sums.powers.rinv6), add_halves(sums.powers.rinv12), add_halves(sums.powers.count)};
         add_sums(totals, broadcast_potential(in.pairs[s]), powers);
       }
     }
@@ -96,7 +96,7 @@ LANESCAPE_INLINE void all_rows(const LjListInput& in, double* gradient, Totals& 
 double lj_list_energy_mixed(const LjListInput& in) noexcept {
   Totals totals;
   all_rows<Output::energy>(in, nullptr, totals);
-  return 0.5 * sum_lanes(totals.energy);
+  return 0.5 * reduce_add(totals.energy);
 }
 
 void lj_list_force_mixed(const LjListInput& in, double* gradient) noexcept {
@@ -108,8 +108,8 @@ void lj_list_gradient_mixed(const LjListInput& in, double* gradient, LjOutput& o
   Totals totals;
   all_rows<Output::gradient>(in, gradient, totals);
   // Every pair was met from both ends.
-  out.energy = 0.5 * sum_lanes(totals.energy);
-  out.virial = 0.5 * sum_lanes(totals.virial);
+  out.energy = 0.5 * reduce_add(totals.energy);
+  out.virial = 0.5 * reduce_add(totals.virial);
 }
 
 }  // namespace lanescape::kernels::LANESCAPE_ISA

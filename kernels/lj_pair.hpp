@@ -25,7 +25,7 @@ inline Potential broadcast_potential(const LjPair& p) noexcept {
 
 // Sums over the pairs in range of r^-6, r^-12 and 1: all that energy and virial need.
 struct PowerSums {
-  Vector sixth = broadcast(0.0), twelfth = broadcast(0.0), count = broadcast(0.0);
+  Vector rinv6 = broadcast(0.0), rinv12 = broadcast(0.0), count = broadcast(0.0);
 };
 
 struct Totals {
@@ -35,15 +35,15 @@ struct Totals {
 
 LANESCAPE_INLINE Vector squared_length(const Displacement& d) { return multiply_add(d.z, d.z, multiply_add(d.y, d.y, d.x * d.x)); }
 
-LANESCAPE_INLINE void add_powers(PowerSums& sums, Vector sixth, Mask in_range) {
-  sums.sixth += sixth;
-  sums.twelfth = multiply_add(sixth, sixth, sums.twelfth);
-  sums.count = count_up(sums.count, in_range);
+LANESCAPE_INLINE void add_powers(PowerSums& sums, Vector rinv6, Mask in_range) {
+  sums.rinv6 += rinv6;
+  sums.rinv12 = multiply_add(rinv6, rinv6, sums.rinv12);
+  sums.count = masked_increment(sums.count, in_range);
 }
 
 // -u'(r)/r, given 1/r^2 and its cube.
-LANESCAPE_INLINE Vector pull(const Potential& u, Vector inverse, Vector sixth) {
-  return (multiply_add(u.twelve_c12, sixth, broadcast(0.0) - u.six_c6) * sixth) * inverse;
+LANESCAPE_INLINE Vector force_over_r(const Potential& u, Vector inverse, Vector rinv6) {
+  return (multiply_add(u.twelve_c12, rinv6, broadcast(0.0) - u.six_c6) * rinv6) * inverse;
 }
 
 LANESCAPE_INLINE void add_tensor(Totals& totals, const Displacement& d, Vector w) {
@@ -58,8 +58,8 @@ LANESCAPE_INLINE void add_tensor(Totals& totals, const Displacement& d, Vector w
 
 // Energy and virial of one species pair.
 LANESCAPE_INLINE void add_sums(Totals& totals, const Potential& u, const PowerSums& sums) {
-  totals.energy += multiply_add(u.c12, sums.twelfth, broadcast(0.0) - multiply_add(u.c6, sums.sixth, u.shift * sums.count));
-  totals.virial += multiply_add(u.twelve_c12, sums.twelfth, broadcast(0.0) - u.six_c6 * sums.sixth);
+  totals.energy += multiply_add(u.c12, sums.rinv12, broadcast(0.0) - multiply_add(u.c6, sums.rinv6, u.shift * sums.count));
+  totals.virial += multiply_add(u.twelve_c12, sums.rinv12, broadcast(0.0) - u.six_c6 * sums.rinv6);
 }
 
 }  // namespace lanescape::kernels::LANESCAPE_ISA

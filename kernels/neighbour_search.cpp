@@ -25,7 +25,7 @@ inline std::size_t search_run(const PointGrid& grid, const Search& search, std::
     std::uint32_t mask = bits_less(square_plus(dz, square_plus(dy, multiply(dx, dx))), search.reach_squared);
     if (end - k < float_lanes) mask &= (1U << (end - k)) - 1U;
     if (search.self - k < float_lanes) mask &= ~(1U << (search.self - k));  // unsigned: below k is far above it
-    found += store_set_places(out + found, mask, k);
+    found += compress_store_offsets(out + found, mask, k);
   }
   return found;
 }

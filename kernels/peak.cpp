@@ -15,7 +15,7 @@ double peak_rounds(std::size_t rounds, double* sink) noexcept {
     for (std::size_t k = 0; k < chains; ++k) x[k] = multiply_add(x[k], a, b);
   Vector sum = broadcast(0.0);
   for (std::size_t k = 0; k < chains; ++k) sum += x[k];
-  *sink = sum_lanes(sum);
+  *sink = reduce_add(sum);
   return static_cast<double>(rounds) * chains * lanes * 2.0;
 }
 

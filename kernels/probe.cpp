@@ -26,10 +26,10 @@ LANESCAPE_INLINE void add_run(const ProbeSpecies& points, const Displacement& pr
     const Vector r2 = squared_length(d);
     const Mask in_range = both(less(r2, u.cutoff_squared), lanes_below(static_cast<std::ptrdiff_t>(end - k)));
     const Vector inverse = masked_reciprocal(in_range, r2);
-    const Vector sixth = inverse * inverse * inverse;
-    add_powers(sums.powers, sixth, in_range);
+    const Vector rinv6 = inverse * inverse * inverse;
+    add_powers(sums.powers, rinv6, in_range);
     if constexpr (output == Output::gradient) {
-      const Vector w = pull(u, inverse, sixth);
+      const Vector w = force_over_r(u, inverse, rinv6);
       Displacement& g = sums.gradient;
       g = {subtract_product(g.x, w, d.x), subtract_product(g.y, w, d.y), subtract_product(g.z, w, d.z)};
     }
@@ -55,11 +55,11 @@ LANESCAPE_INLINE double sum_probe(const ProbeInput& in, const double* position, 
     add_sums(totals, u, sums.powers);
   }
   if constexpr (output == Output::gradient) {
-    gradient[0] = sum_lanes(sums.gradient.x);
-    gradient[1] = sum_lanes(sums.gradient.y);
-    gradient[2] = sum_lanes(sums.gradient.z);
+    gradient[0] = reduce_add(sums.gradient.x);
+    gradient[1] = reduce_add(sums.gradient.y);
+    gradient[2] = reduce_add(sums.gradient.z);
   }
-  return sum_lanes(totals.energy);
+  return reduce_add(totals.energy);
 }
 
 // Whether no point of a species is nearer than `reach`. The position's own column comes first: what is too near is mostly there.

@@ -175,7 +175,7 @@ inline Vector masked_reciprocal(Mask m, Vector v) noexcept {
 }
 
 // a where the mask is set, b elsewhere.
-inline Vector choose(Mask m, Vector a, Vector b) noexcept {
+inline Vector select(Mask m, Vector a, Vector b) noexcept {
 #if defined(LANESCAPE_X86)
   return xsimd::select(m, a, b);
 #else
@@ -184,7 +184,7 @@ inline Vector choose(Mask m, Vector a, Vector b) noexcept {
 }
 
 // sum + 1 where the mask is set.
-inline Vector count_up(Vector sum, Mask m) noexcept {
+inline Vector masked_increment(Vector sum, Mask m) noexcept {
 #if defined(LANESCAPE_ISA_AVX512)
   return _mm512_mask_add_pd(sum, m, sum, _mm512_set1_pd(1.0));
 #elif defined(LANESCAPE_ISA_AVX2)
@@ -216,7 +216,7 @@ inline unsigned bits(Mask m) noexcept {
 
 // Writes first + lane for every lane whose bit is set, one after the other from p on; up to a whole vector is overwritten. Their
 // number.
-inline std::size_t store_set_lanes(std::int32_t* p, unsigned mask, std::int32_t first) noexcept {
+inline std::size_t compress_store_lanes(std::int32_t* p, unsigned mask, std::int32_t first) noexcept {
 #if defined(LANESCAPE_ISA_AVX512)
   const __m256i numbers = _mm256_add_epi32(_mm256_set1_epi32(first), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), _mm256_maskz_compress_epi32(static_cast<__mmask8>(mask), numbers));
@@ -399,7 +399,7 @@ inline Vector store_nearest_whole(WholeLanes& out, Vector v) noexcept {
 }
 
 // The chosen lanes one after the other from p on; up to a whole vector is overwritten. Their number.
-inline std::size_t store_chosen(double* p, unsigned mask, Vector v) noexcept {
+inline std::size_t compress_store(double* p, unsigned mask, Vector v) noexcept {
 #if defined(LANESCAPE_ISA_AVX512)
   _mm512_storeu_pd(p, _mm512_maskz_compress_pd(static_cast<__mmask8>(mask), v));
   return static_cast<std::size_t>(__builtin_popcount(mask));
@@ -416,7 +416,7 @@ inline std::size_t store_chosen(double* p, unsigned mask, Vector v) noexcept {
 }
 
 // The same of numbers in memory, which may be those that are overwritten.
-inline std::size_t store_chosen(std::uint32_t* p, unsigned mask, const std::uint32_t* from) noexcept {
+inline std::size_t compress_store(std::uint32_t* p, unsigned mask, const std::uint32_t* from) noexcept {
 #if defined(LANESCAPE_ISA_AVX512)
   const __m256i chosen =
       _mm256_maskz_compress_epi32(static_cast<__mmask8>(mask), _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
@@ -451,7 +451,7 @@ inline Vector count_from(double first) noexcept {
   return load(whole) + broadcast(first);
 }
 
-inline double largest_lane(Vector v) noexcept {
+inline double reduce_max(Vector v) noexcept {
 #if defined(LANESCAPE_ISA_AVX512)
   return _mm512_reduce_max_pd(v);
 #else
@@ -463,10 +463,10 @@ inline double largest_lane(Vector v) noexcept {
 #endif
 }
 // Taken from zero and not negated, so that zero stays +0.
-inline double smallest_lane(Vector v) noexcept { return 0.0 - largest_lane(broadcast(0.0) - v); }
+inline double reduce_min(Vector v) noexcept { return 0.0 - reduce_max(broadcast(0.0) - v); }
 
 // The magnitude of a with the sign of s.
-inline Vector with_sign_of(Vector a, Vector s) noexcept {
+inline Vector copy_sign(Vector a, Vector s) noexcept {
 #if defined(LANESCAPE_X86)
   return xsimd::copysign(a, s);
 #else
@@ -494,7 +494,7 @@ inline Mask lanes_below(std::ptrdiff_t k) noexcept {
 }
 
 // a without b.
-inline Mask excluding(Mask a, Mask b) noexcept {
+inline Mask and_not(Mask a, Mask b) noexcept {
 #if defined(LANESCAPE_ISA_AVX512)
   return _kandn_mask8(b, a);
 #elif defined(LANESCAPE_ISA_AVX2)
@@ -507,7 +507,7 @@ inline Mask excluding(Mask a, Mask b) noexcept {
 }
 
 // The sum of all lanes, always in the same order.
-inline double sum_lanes(Vector v) noexcept {
+inline double reduce_add(Vector v) noexcept {
 #if defined(LANESCAPE_X86)
   return xsimd::hadd(v);
 #else
@@ -522,7 +522,7 @@ inline __m256d fold_to_four(Vector v) noexcept { return v; }
 #endif
 
 // Adds the lane sums of four vectors to four consecutive doubles, 32-byte aligned.
-inline void add_lane_sums(double* out, Vector a, Vector b, Vector c, Vector d) noexcept {
+inline void reduce_add_four(double* out, Vector a, Vector b, Vector c, Vector d) noexcept {
 #if defined(LANESCAPE_ISA_AVX512) || defined(LANESCAPE_ISA_AVX2)
   const __m256d ab = _mm256_hadd_pd(fold_to_four(a), fold_to_four(b));  // a01 b01 a23 b23
   const __m256d cd = _mm256_hadd_pd(fold_to_four(c), fold_to_four(d));
@@ -530,10 +530,10 @@ inline void add_lane_sums(double* out, Vector a, Vector b, Vector c, Vector d) n
   const __m256d straight = _mm256_blend_pd(ab, cd, 0b1100);      // a01 b01 c23 d23
   _mm256_store_pd(out, _mm256_add_pd(_mm256_load_pd(out), _mm256_add_pd(crossed, straight)));
 #else
-  out[0] += sum_lanes(a);
-  out[1] += sum_lanes(b);
-  out[2] += sum_lanes(c);
-  out[3] += sum_lanes(d);
+  out[0] += reduce_add(a);
+  out[1] += reduce_add(b);
+  out[2] += reduce_add(c);
+  out[3] += reduce_add(d);
 #endif
 }
 
@@ -545,9 +545,9 @@ inline void store_point(double* out, Vector x, Vector y, Vector z) noexcept {
   const __m256d crossed = _mm256_permute2f128_pd(xy, z0, 0x21);                   // x23 y23 z01 0
   _mm256_store_pd(out, _mm256_add_pd(crossed, _mm256_blend_pd(xy, z0, 0b1100)));  // x01 y01 z23 0
 #else
-  out[0] = sum_lanes(x);
-  out[1] = sum_lanes(y);
-  out[2] = sum_lanes(z);
+  out[0] = reduce_add(x);
+  out[1] = reduce_add(y);
+  out[2] = reduce_add(z);
   out[3] = 0.0;
 #endif
 }
@@ -576,7 +576,7 @@ inline FloatMask less(FloatVector a, FloatVector b) noexcept { return _mm512_cmp
 inline FloatMask both(FloatMask a, FloatMask b) noexcept { return _kand_mask16(a, b); }
 inline FloatVector multiply_add(FloatVector a, FloatVector b, FloatVector c) noexcept { return _mm512_fmadd_ps(a, b, c); }
 inline FloatVector masked_quotient(FloatMask m, FloatVector a, FloatVector b) noexcept { return _mm512_maskz_div_ps(m, a, b); }
-inline FloatVector count_up(FloatVector sum, FloatMask m) noexcept { return _mm512_mask_add_ps(sum, m, sum, _mm512_set1_ps(1.0F)); }
+inline FloatVector masked_increment(FloatVector sum, FloatMask m) noexcept { return _mm512_mask_add_ps(sum, m, sum, _mm512_set1_ps(1.0F)); }
 
 #elif defined(LANESCAPE_ISA_AVX2)
 
@@ -604,7 +604,7 @@ inline FloatVector multiply_add(FloatVector a, FloatVector b, FloatVector c) noe
 inline FloatVector masked_quotient(FloatMask m, FloatVector a, FloatVector b) noexcept {
   return _mm256_and_ps(m.lane, _mm256_div_ps(a, b));
 }
-inline FloatVector count_up(FloatVector sum, FloatMask m) noexcept {
+inline FloatVector masked_increment(FloatVector sum, FloatMask m) noexcept {
   return _mm256_add_ps(sum, _mm256_and_ps(m.lane, _mm256_set1_ps(1.0F)));
 }
 
@@ -634,7 +634,7 @@ inline FloatVector multiply_add(FloatVector a, FloatVector b, FloatVector c) noe
 inline FloatVector masked_quotient(FloatMask m, FloatVector a, FloatVector b) noexcept {
   return _mm_and_ps(m.lane, _mm_div_ps(a, b));
 }
-inline FloatVector count_up(FloatVector sum, FloatMask m) noexcept {
+inline FloatVector masked_increment(FloatVector sum, FloatMask m) noexcept {
   return _mm_add_ps(sum, _mm_and_ps(m.lane, _mm_set1_ps(1.0F)));
 }
 
@@ -700,7 +700,7 @@ inline FloatVector multiply_add(FloatVector a, FloatVector b, FloatVector c) noe
 inline FloatVector masked_quotient(FloatMask m, FloatVector a, FloatVector b) noexcept {
   return float_lanewise([&](std::size_t k) { return m.lane[k] ? a.lane[k] / b.lane[k] : 0.0F; });
 }
-inline FloatVector count_up(FloatVector sum, FloatMask m) noexcept {
+inline FloatVector masked_increment(FloatVector sum, FloatMask m) noexcept {
   return float_lanewise([&](std::size_t k) { return sum.lane[k] + (m.lane[k] ? 1.0F : 0.0F); });
 }
 
@@ -809,7 +809,7 @@ inline void gather_differences(const std::int32_t* base, const std::uint32_t* pl
 
 // Writes 4 (first + lane) for every lane of single precision whose bit is set, one after the other from p on; up to a whole vector
 // is overwritten. Their number.
-inline std::size_t store_set_places(std::uint32_t* p, std::uint32_t mask, std::uint32_t first) noexcept {
+inline std::size_t compress_store_offsets(std::uint32_t* p, std::uint32_t mask, std::uint32_t first) noexcept {
 #if defined(LANESCAPE_ISA_AVX512)
   const __m512i places = _mm512_add_epi32(_mm512_set1_epi32(static_cast<std::int32_t>(4 * first)),
                                           _mm512_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28, 32, 36, 40, 44, 48, 52, 56, 60));

@@ -45,7 +45,7 @@ std::size_t sphere_list_contacts(const SphereList& list, const double* positions
     store(out.y + k, s.y);
     store(out.z + k, s.z);
     store(out.squared + k, s.squared);
-    count += store_set_lanes(out.places + count, bits(s.overlapping), static_cast<std::int32_t>(k));
+    count += compress_store_lanes(out.places + count, bits(s.overlapping), static_cast<std::int32_t>(k));
   }
   // Whole vectors of places are read: what follows the last one must be a place too.
   for (std::size_t k = 0; k < lanes; ++k) out.places[count + k] = 0;
@@ -88,7 +88,7 @@ std::size_t sphere_avoidance_trial(double* trial, const double* position, double
       const Vector f = load(force + axis * slots + i);
       squares[axis] = multiply_add(f, f, squares[axis]);
     }
-  const double squared = sum_lanes((squares[0] + squares[1]) + squares[2]);
+  const double squared = reduce_add((squares[0] + squares[1]) + squares[2]);
   const Vector weight = broadcast(squared > 0.0 ? 1.0 / __builtin_sqrt(squared) : 0.0);
   const Vector length = broadcast(step);
   Vector moving = zero;
@@ -108,9 +108,9 @@ std::size_t sphere_avoidance_trial(double* trial, const double* position, double
       const std::size_t at = axis * slots + i;
       store(trial + at, multiply_add(per_length, f[axis], load(position + at)));
     }
-    moving = count_up(moving, moves);
+    moving = masked_increment(moving, moves);
   }
-  return static_cast<std::size_t>(sum_lanes(moving));
+  return static_cast<std::size_t>(reduce_add(moving));
 }
 
 }  // namespace lanescape::kernels::LANESCAPE_ISA

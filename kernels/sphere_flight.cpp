@@ -38,17 +38,17 @@ CollisionEvent sphere_first_collision(const CollisionQuery& query) noexcept {
     const Vector discriminant = b * b - w2 * c;
     // Those hit that approach, and those whose surfaces grow faster than their centres part (w2 < 0).
     const Mask there = lanes_below(static_cast<std::ptrdiff_t>(query.count) - static_cast<std::ptrdiff_t>(k));
-    Mask hits = both(either(less(b, zero), less(w2, zero)), excluding(there, less(discriminant, zero)));
+    Mask hits = both(either(less(b, zero), less(w2, zero)), and_not(there, less(discriminant, zero)));
     if (!any(hits)) continue;
     const Vector wait = maximum(c / (square_root(maximum(discriminant, zero)) - b), zero);
     hits = both(hits, less(wait, earliest));
-    earliest = choose(hits, wait, earliest);
-    place = choose(hits, count_from(static_cast<double>(k)), place);
+    earliest = select(hits, wait, earliest);
+    place = select(hits, count_from(static_cast<double>(k)), place);
   }
-  const double wait = smallest_lane(earliest);
+  const double wait = reduce_min(earliest);
   if (!(wait < __builtin_inf())) return {__builtin_inf(), -1};
   // Of several at one time the first in the list, whatever the number of lanes.
-  const double first = smallest_lane(choose(equal(earliest, broadcast(wait)), place, broadcast(__builtin_inf())));
+  const double first = reduce_min(select(equal(earliest, broadcast(wait)), place, broadcast(__builtin_inf())));
   return {query.now + wait, query.neighbours[static_cast<std::size_t>(first)]};
 }
 
@@ -65,12 +65,12 @@ void calendar_update(const CalendarView& calendar, std::size_t event, double tim
     const Vector changed = broadcast(static_cast<double>(entry - first)), new_time = broadcast(time);
 #pragma GCC unroll 8
     for (std::size_t v = 0; v < vectors; ++v) {
-      entries[v] = choose(equal(count_from(static_cast<double>(v * lanes)), changed), new_time, load(times + first + v * lanes));
+      entries[v] = select(equal(count_from(static_cast<double>(v * lanes)), changed), new_time, load(times + first + v * lanes));
       least = minimum(least, entries[v]);
     }
     times[entry] = time;
     if (level > 0) calendar.winners[level][entry] = winner;
-    const double lowest = smallest_lane(least);
+    const double lowest = reduce_min(least);
     unsigned mask = 0;
 #pragma GCC unroll 8
     for (std::size_t v = 0; v < vectors; ++v) mask |= bits(equal(entries[v], broadcast(lowest))) << (v * lanes);

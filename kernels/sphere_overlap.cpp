@@ -140,11 +140,11 @@ double sphere_smallest_gap(const SphereInput& in) noexcept {
       const Vector gap = square_root(squared) - (broadcast(in.radii[i]) + load(in.radii + j));
       // Comparisons with the NaN of padding are false. Columns up to the row itself are left out.
       const Mask smaller =
-          excluding(less(gap, smallest), lanes_below(static_cast<std::ptrdiff_t>(i + 1) - static_cast<std::ptrdiff_t>(j)));
-      smallest = choose(smaller, gap, smallest);
+          and_not(less(gap, smallest), lanes_below(static_cast<std::ptrdiff_t>(i + 1) - static_cast<std::ptrdiff_t>(j)));
+      smallest = select(smaller, gap, smallest);
     }
   }
-  return smallest_lane(smallest);
+  return reduce_min(smallest);
 }
 
 }  // namespace lanescape::kernels::LANESCAPE_ISA

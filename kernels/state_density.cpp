@@ -32,17 +32,17 @@ struct Packed {
 };
 
 template <bool masked>
-LANESCAPE_INLINE void pack_vector(const double* points, const std::uint32_t* places, const Displacement& row, Vector reach_squared,
+LANESCAPE_INLINE void pack_vector(const double* points, const std::uint32_t* offsets, const Displacement& row, Vector reach_squared,
                                   Mask valid, std::uint32_t* near, Packed& packed) {
-  prefetch(places + list_prefetch);
+  prefetch(offsets + list_prefetch);
   Displacement d;
-  gather_points(points, places, d.x, d.y, d.z);
+  gather_points(points, offsets, d.x, d.y, d.z);
   const Vector r2 = squared_length({d.x - row.x, d.y - row.y, d.z - row.z});
   Mask in_reach = less(r2, reach_squared);
   if constexpr (masked) in_reach = both(in_reach, valid);
   const unsigned chosen = bits(in_reach);
-  store_chosen(packed.r2 + packed.count, chosen, r2);
-  packed.count += store_chosen(near + packed.count, chosen, places);
+  compress_store(packed.r2 + packed.count, chosen, r2);
+  packed.count += compress_store(near + packed.count, chosen, offsets);
 }
 
 // The density of a vector of neighbours; w'(r)/r of each goes to `slopes`.
@@ -72,19 +72,19 @@ LANESCAPE_INLINE Vector sum_of_packed(const Switching& w, const Packed& packed, 
 
 // What a segment's neighbours that are near go to.
 struct Near {
-  std::uint32_t* places;
+  std::uint32_t* offsets;
   double* slopes;
   std::size_t count = 0;
 };
 
 // The density that `count` neighbours make.
-LANESCAPE_INLINE double one_segment(const double* points, const std::uint32_t* places, std::size_t count, const Displacement& row,
+LANESCAPE_INLINE double one_segment(const double* points, const std::uint32_t* offsets, std::size_t count, const Displacement& row,
                                     const Switching& w, Vector reach_squared, Near& near) {
   Vector sum = broadcast(0.0);
   for (std::size_t first = 0; first < count; first += chunk) {
     const std::size_t here = count - first < chunk ? count - first : chunk;
-    const std::uint32_t* from = places + first;
-    std::uint32_t* to = near.places + near.count;
+    const std::uint32_t* from = offsets + first;
+    std::uint32_t* to = near.offsets + near.count;
     Packed packed;
     std::size_t j = 0;
     for (; j + lanes <= here; j += lanes) pack_vector<false>(points, from + j, row, reach_squared, {}, to, packed);
@@ -93,7 +93,7 @@ LANESCAPE_INLINE double one_segment(const double* points, const std::uint32_t* p
     sum += sum_of_packed(w, packed, near.slopes + near.count);
     near.count += packed.count;
   }
-  return sum_lanes(sum);
+  return reduce_add(sum);
 }
 
 // 2 dw/d(r^2) = w'(r)/r.
@@ -119,16 +119,16 @@ struct RowSums {
 
 // Both ends count by one switching function, whose slopes are there, or the other end counts by another.
 template <bool with_tensor, bool one_switching>
-LANESCAPE_INLINE void force_segment(const double* points, const std::uint32_t* places, const double* slopes, std::size_t count,
+LANESCAPE_INLINE void force_segment(const double* points, const std::uint32_t* offsets, const double* slopes, std::size_t count,
                                     const Displacement& row, const Switching theirs, const Multipliers multipliers,
                                     RowSums& row_sums, StateTotals& totals) {
   RowSums sums = row_sums;
   for (std::size_t j = 0; j < count; j += lanes) {
-    prefetch(places + j + list_prefetch);
+    prefetch(offsets + j + list_prefetch);
     prefetch(slopes + j + list_prefetch);
     Displacement d;
     Vector lambda;
-    gather_quads(points, places + j, d.x, d.y, d.z, lambda);
+    gather_quads(points, offsets + j, d.x, d.y, d.z, lambda);
     d = {d.x - row.x, d.y - row.y, d.z - row.z};
     const Vector r2 = squared_length(d), mine = load(slopes + j);
     Vector slope;
@@ -150,7 +150,7 @@ LANESCAPE_INLINE void force_segment(const double* points, const std::uint32_t* p
 template <bool with_tensor>
 void sum_forces(const StateDensityForceInput& in, double* gradient, LjOutput& out) {
   const NeighbourRows& list = in.list;
-  const std::uint32_t* places = list.neighbours;
+  const std::uint32_t* offsets = list.neighbours;
   const std::uint32_t* length = list.lengths;
   const double* slopes = in.slopes;
   StateTotals totals;
@@ -165,12 +165,12 @@ void sum_forces(const StateDensityForceInput& in, double* gradient, LjOutput& ou
       if (in.filter[s] == 0.0 && in.filter_back[s] == 0.0) {
         // neither end counts the other
       } else if (w.spline.records == in.switching.spline.records) {
-        force_segment<with_tensor, true>(list.points, places, slopes, *length, row, {}, multipliers, sums, totals);
+        force_segment<with_tensor, true>(list.points, offsets, slopes, *length, row, {}, multipliers, sums, totals);
       } else {
-        force_segment<with_tensor, false>(list.points, places, slopes, *length, row, broadcast_switching(w), multipliers, sums,
+        force_segment<with_tensor, false>(list.points, offsets, slopes, *length, row, broadcast_switching(w), multipliers, sums,
                                           totals);
       }
-      places += padded_length(*length);
+      offsets += padded_length(*length);
       slopes += padded_length(*length);
     }
     store_point(gradient + point_width * k, sums.g.x, sums.g.y, sums.g.z);
@@ -183,7 +183,7 @@ void sum_forces(const StateDensityForceInput& in, double* gradient, LjOutput& ou
 
 void state_densities(const StateDensityInput& in, double* densities) noexcept {
   const NeighbourRows& list = in.list;
-  const std::uint32_t* places = list.neighbours;
+  const std::uint32_t* offsets = list.neighbours;
   const std::uint32_t* length = list.lengths;
   Near near{in.near, in.near_slopes};
   std::uint32_t* near_length = in.near_lengths;
@@ -193,13 +193,13 @@ void state_densities(const StateDensityInput& in, double* densities) noexcept {
     double density = 0.0;
     for (std::size_t s = 0; s < list.species_count; ++s, ++length, ++near_length) {
       near.count = 0;
-      const double sum = one_segment(list.points, places, *length, row, w, broadcast(in.reaches_squared[s]), near);
+      const double sum = one_segment(list.points, offsets, *length, row, w, broadcast(in.reaches_squared[s]), near);
       density += in.filter[s] * sum;
-      places += padded_length(*length);
+      offsets += padded_length(*length);
       *near_length = static_cast<std::uint32_t>(near.count);
       const std::size_t end = padded_length(near.count);
-      for (std::size_t j = near.count; j < end; ++j) near.places[j] = list.rows[k];
-      near.places += end;
+      for (std::size_t j = near.count; j < end; ++j) near.offsets[j] = list.rows[k];
+      near.offsets += end;
       near.slopes += end;
     }
     densities[k] = density;

@@ -22,20 +22,20 @@ struct StateSums {
   PowerSums of[4];
 };
 
-LANESCAPE_INLINE void add_weighted(PowerSums& sums, Vector p, Vector sixth, Mask in_range) {
-  const Vector weighted = p * sixth;
-  sums.sixth += weighted;
-  sums.twelfth = multiply_add(weighted, sixth, sums.twelfth);
+LANESCAPE_INLINE void add_weighted(PowerSums& sums, Vector p, Vector rinv6, Mask in_range) {
+  const Vector weighted = p * rinv6;
+  sums.rinv6 += weighted;
+  sums.rinv12 = multiply_add(weighted, rinv6, sums.rinv12);
   sums.count += where(in_range, p);
 }
 
 template <StatesAtOnce n>
-LANESCAPE_INLINE void add_states(StateSums& sums, const NeighbourStates& states, Vector sixth, Mask in_range) {
+LANESCAPE_INLINE void add_states(StateSums& sums, const NeighbourStates& states, Vector rinv6, Mask in_range) {
   if constexpr (n == StatesAtOnce::four) {
-    for (std::size_t b = 0; b < 4; ++b) add_weighted(sums.of[b], states.p[b], sixth, in_range);
+    for (std::size_t b = 0; b < 4; ++b) add_weighted(sums.of[b], states.p[b], rinv6, in_range);
   } else {
-    if constexpr (n == StatesAtOnce::two) add_weighted(sums.of[0], states.p[0], sixth, in_range);
-    add_powers(sums.of[count_of(n) - 1], sixth, in_range);
+    if constexpr (n == StatesAtOnce::two) add_weighted(sums.of[0], states.p[0], rinv6, in_range);
+    add_powers(sums.of[count_of(n) - 1], rinv6, in_range);
   }
 }
 
@@ -49,19 +49,19 @@ LANESCAPE_INLINE Vector average(const Vector* of_state, const NeighbourStates& s
 }
 
 template <Output output, StatesAtOnce n, bool masked>
-LANESCAPE_INLINE void pair_vector(const double* points, const double* quads, const std::uint32_t* places, const Displacement& row,
+LANESCAPE_INLINE void pair_vector(const double* points, const double* quads, const std::uint32_t* offsets, const Displacement& row,
                                   Vector cutoff_squared, const Averaged& averaged, Mask valid, StateSums& sums, Displacement& g,
                                   StateTotals& totals) {
-  prefetch(places + list_prefetch);
-  const PairVector pair = pairs_of<masked>(points, places, row, cutoff_squared, valid);
+  prefetch(offsets + list_prefetch);
+  const PairVector pair = pairs_of<masked>(points, offsets, row, cutoff_squared, valid);
   NeighbourStates states{{pair.fourth, pair.fourth, pair.fourth, pair.fourth}};
-  if constexpr (n == StatesAtOnce::four) gather_quads(quads, places, states.p[0], states.p[1], states.p[2], states.p[3]);
+  if constexpr (n == StatesAtOnce::four) gather_quads(quads, offsets, states.p[0], states.p[1], states.p[2], states.p[3]);
   const Vector inverse = masked_reciprocal(pair.in_range, pair.r2);
-  const Vector sixth = inverse * inverse * inverse;
-  add_states<n>(sums, states, sixth, pair.in_range);
+  const Vector rinv6 = inverse * inverse * inverse;
+  add_states<n>(sums, states, rinv6, pair.in_range);
   if constexpr (output != Output::energy) {
     const Vector c12 = average<n>(averaged.twelve_c12, states), c6 = average<n>(averaged.six_c6, states);
-    const Vector w = (multiply_add(c12, sixth, broadcast(0.0) - c6) * sixth) * inverse;
+    const Vector w = (multiply_add(c12, rinv6, broadcast(0.0) - c6) * rinv6) * inverse;
     g = {multiply_add(w, pair.d.x, g.x), multiply_add(w, pair.d.y, g.y), multiply_add(w, pair.d.z, g.z)};
     if constexpr (output == Output::stress) add_tensor(totals, pair.d, w);
   }
@@ -94,35 +94,35 @@ LANESCAPE_INLINE Averaged average_over_row(const StateLjPair* pairs, const doubl
 // as in lj_list.cpp, to the bit; with more the lanes are added up first, which leaves less to do.
 LANESCAPE_INLINE void add_one_state(const StateLjPair& u, double p, const Averaged& averaged, const PowerSums& s, double* slopes,
                                     StateTotals& totals) {
-  totals.virial += multiply_add(averaged.twelve_c12[0], s.twelfth, broadcast(0.0) - averaged.six_c6[0] * s.sixth);
-  const Vector slope = multiply_add(broadcast(u.c12), s.twelfth,
-                                    broadcast(0.0) - multiply_add(broadcast(u.c6), s.sixth, broadcast(u.shift) * s.count));
+  totals.virial += multiply_add(averaged.twelve_c12[0], s.rinv12, broadcast(0.0) - averaged.six_c6[0] * s.rinv6);
+  const Vector slope = multiply_add(broadcast(u.c12), s.rinv12,
+                                    broadcast(0.0) - multiply_add(broadcast(u.c6), s.rinv6, broadcast(u.shift) * s.count));
   totals.energy += broadcast(p) * slope;
-  if (slopes) slopes[0] += sum_lanes(slope);
+  if (slopes) slopes[0] += reduce_add(slope);
 }
 
 template <StatesAtOnce n>
 LANESCAPE_INLINE void add_segment(const StateLjPair* pairs, const double* p, std::size_t states, std::size_t first,
                                   const StateSums& sums, double* slopes, double& energy, double& virial) {
   alignas(array_alignment) double s[4][point_width];  // r^-6, r^-12, 1
-  for (std::size_t b = 0; b < count_of(n); ++b) store_point(s[b], sums.of[b].sixth, sums.of[b].twelfth, sums.of[b].count);
+  for (std::size_t b = 0; b < count_of(n); ++b) store_point(s[b], sums.of[b].rinv6, sums.of[b].rinv12, sums.of[b].count);
   for (std::size_t a = 0; a < states; ++a) {
-    double sixth = 0.0, twelfth = 0.0, shift = 0.0;
+    double rinv6 = 0.0, rinv12 = 0.0, shift = 0.0;
     for (std::size_t b = 0; b < count_of(n) && first + b < states; ++b) {
       const StateLjPair& u = pairs[a * states + first + b];
-      sixth += u.c6 * s[b][0];
-      twelfth += u.c12 * s[b][1];
+      rinv6 += u.c6 * s[b][0];
+      rinv12 += u.c12 * s[b][1];
       shift += u.shift * s[b][2];
     }
-    const double slope = twelfth - (sixth + shift);
+    const double slope = rinv12 - (rinv6 + shift);
     energy += p[a] * slope;
-    virial += p[a] * (12.0 * twelfth - 6.0 * sixth);
+    virial += p[a] * (12.0 * rinv12 - 6.0 * rinv6);
     if (slopes) slopes[a] += slope;
   }
 }
 
 template <Output output, StatesAtOnce n>
-LANESCAPE_INLINE void one_segment(const StateLjInput& in, std::size_t species, const std::uint32_t* places, std::size_t count,
+LANESCAPE_INLINE void one_segment(const StateLjInput& in, std::size_t species, const std::uint32_t* offsets, std::size_t count,
                                   const Displacement& row, const double* p, std::size_t group, Displacement& g, double* slopes,
                                   StateTotals& totals) {
   const std::size_t states = known<n>(in.probabilities.states), first = n == StatesAtOnce::four ? group * count_of(n) : 0;
@@ -139,14 +139,14 @@ LANESCAPE_INLINE void one_segment(const StateLjInput& in, std::size_t species, c
   Displacement pulled = g;
   std::size_t j = 0;
   for (; j + lanes <= count; j += lanes)
-    pair_vector<output, n, false>(points, quads, places + j, row, cutoff_squared, of_pairs, {}, sums, pulled, totals);
+    pair_vector<output, n, false>(points, quads, offsets + j, row, cutoff_squared, of_pairs, {}, sums, pulled, totals);
   if (j < count)
-    pair_vector<output, n, true>(points, quads, places + j, row, cutoff_squared, of_pairs,
+    pair_vector<output, n, true>(points, quads, offsets + j, row, cutoff_squared, of_pairs,
                                  lanes_below(static_cast<std::ptrdiff_t>(count - j)), sums, pulled, totals);
   g = pulled;
   if constexpr (n == StatesAtOnce::two) {
     const PowerSums &one = sums.of[0], all = sums.of[1];
-    sums.of[1] = {all.sixth - one.sixth, all.twelfth - one.twelfth, all.count - one.count};
+    sums.of[1] = {all.rinv6 - one.rinv6, all.rinv12 - one.rinv12, all.count - one.count};
   }
   if constexpr (n == StatesAtOnce::one)
     add_one_state(pairs[0], p[0], averaged, sums.of[0], slopes, totals);
@@ -158,7 +158,7 @@ template <Output output, StatesAtOnce n>
 void all_rows(const StateLjInput& in, double* gradient, double* slopes, StateTotals& totals) {
   const NeighbourRows& list = in.list;
   const std::size_t states = known<n>(in.probabilities.states), groups = (states + count_of(n) - 1) / count_of(n);
-  const std::uint32_t* places = list.neighbours;
+  const std::uint32_t* offsets = list.neighbours;
   const std::uint32_t* length = list.lengths;
   const Vector zero = broadcast(0.0);
   for (std::size_t k = 0; k < list.row_count; ++k, length += list.species_count) {
@@ -166,16 +166,16 @@ void all_rows(const StateLjInput& in, double* gradient, double* slopes, StateTot
     Displacement g{zero, zero, zero};
     double* slope = slopes ? slopes + k * states : nullptr;
     for (std::size_t a = 0; slope && a < states; ++a) slope[a] = 0.0;
-    const std::uint32_t* end = places;
+    const std::uint32_t* end = offsets;
     for (std::size_t group = 0; group < groups; ++group) {
-      end = places;
+      end = offsets;
       for (std::size_t s = 0; s < list.species_count; ++s) {
         if (in.cutoffs_squared[s] > 0.0)
           one_segment<output, n>(in, s, end, length[s], row, in.probabilities.rows + k * states, group, g, slope, totals);
         end += padded_length(length[s]);
       }
     }
-    places = end;
+    offsets = end;
     if constexpr (output != Output::energy) store_point(gradient + point_width * k, g.x, g.y, g.z);
   }
 }

@@ -25,11 +25,11 @@ struct PairVector {
 };
 
 template <bool masked>
-LANESCAPE_INLINE PairVector pairs_of(const double* points, const std::uint32_t* places, const Displacement& row,
+LANESCAPE_INLINE PairVector pairs_of(const double* points, const std::uint32_t* offsets, const Displacement& row,
                                      Vector cutoff_squared, Mask valid) {
   PairVector pair;
   Displacement& d = pair.d;
-  gather_quads(points, places, d.x, d.y, d.z, pair.fourth);
+  gather_quads(points, offsets, d.x, d.y, d.z, pair.fourth);
   d = {d.x - row.x, d.y - row.y, d.z - row.z};
   pair.r2 = squared_length(d);
   pair.in_range = less(pair.r2, cutoff_squared);
@@ -37,9 +37,9 @@ LANESCAPE_INLINE PairVector pairs_of(const double* points, const std::uint32_t* 
   return pair;
 }
 
-LANESCAPE_INLINE Vector where(Mask m, Vector v) { return choose(m, v, broadcast(0.0)); }
+LANESCAPE_INLINE Vector where(Mask m, Vector v) { return select(m, v, broadcast(0.0)); }
 
-// Where in a spline an argument lies: places of the intervals' first records, and how far into the interval.
+// Where in a spline an argument lies: offsets of the intervals' first records, and how far into the interval.
 struct SplinePlace {
   WholeLanes intervals;
   Vector s;
@@ -50,7 +50,7 @@ struct SplinePlace {
 
 // `x` in intervals; what is not below their number, or is not a number, is at the end. `width`: records of an interval.
 LANESCAPE_INLINE void find_place(SplinePlace& place, Vector x, Vector intervals, std::size_t width) {
-  x = choose(less(x, intervals), x, intervals);
+  x = select(less(x, intervals), x, intervals);
   // A knot may be the end of one interval or the start of the next: the spline is the same.
   place.s = x - store_nearest_whole(place.intervals, x - broadcast(0.5));
   place.stride = static_cast<std::uint32_t>(width * point_width);
@@ -79,10 +79,10 @@ struct StateTotals : Totals {
 
 // Every pair was met from both ends.
 inline void put_totals(const StateTotals& totals, bool with_tensor, LjOutput& out) {
-  out.energy = 0.5 * (sum_lanes(totals.energy) + totals.rows_energy);
-  out.virial = 0.5 * (sum_lanes(totals.virial) + totals.rows_virial);
+  out.energy = 0.5 * (reduce_add(totals.energy) + totals.rows_energy);
+  out.virial = 0.5 * (reduce_add(totals.virial) + totals.rows_virial);
   if (with_tensor)
-    for (std::size_t k = 0; k < 6; ++k) out.virial_tensor[k] = 0.5 * sum_lanes(totals.tensor[k]);
+    for (std::size_t k = 0; k < 6; ++k) out.virial_tensor[k] = 0.5 * reduce_add(totals.tensor[k]);
 }
 
 }  // namespace lanescape::kernels::LANESCAPE_ISA

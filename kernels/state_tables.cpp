@@ -23,9 +23,9 @@ struct Table {
   Vector per_unit, intervals, origin, cutoff_squared;
 };
 
-LANESCAPE_INLINE void gather_states(const Sweep& sweep, const std::uint32_t* places, Vector fourth, NeighbourStates& states) {
+LANESCAPE_INLINE void gather_states(const Sweep& sweep, const std::uint32_t* offsets, Vector fourth, NeighbourStates& states) {
   if (sweep.states > 2) {
-    gather_quads(sweep.quads, places, states.p[0], states.p[1], states.p[2], states.p[3]);
+    gather_quads(sweep.quads, offsets, states.p[0], states.p[1], states.p[2], states.p[3]);
   } else {
     states.p[0] = sweep.states == 1 ? broadcast(1.0) : fourth;
     states.p[1] = broadcast(1.0) - states.p[0];
@@ -33,12 +33,12 @@ LANESCAPE_INLINE void gather_states(const Sweep& sweep, const std::uint32_t* pla
 }
 
 template <Output output, bool masked>
-LANESCAPE_INLINE void pair_vector(const double* points, const std::uint32_t* places, const Displacement& row, const Sweep& sweep,
+LANESCAPE_INLINE void pair_vector(const double* points, const std::uint32_t* offsets, const Displacement& row, const Sweep& sweep,
                                   const Table& table, Mask valid, Vector* slopes, Displacement& g, StateTotals& totals) {
-  const PairVector pair = pairs_of<masked>(points, places, row, table.cutoff_squared, valid);
+  const PairVector pair = pairs_of<masked>(points, offsets, row, table.cutoff_squared, valid);
   if (!any(pair.in_range)) return;
   NeighbourStates states;
-  gather_states(sweep, places, pair.fourth, states);
+  gather_states(sweep, offsets, pair.fourth, states);
   const Vector r = square_root(pair.r2);
   SplinePlace place;
   find_place(place, (r - table.origin) * table.per_unit, table.intervals, sweep.states * sweep.states);
@@ -62,26 +62,26 @@ LANESCAPE_INLINE void pair_vector(const double* points, const std::uint32_t* pla
 }
 
 template <Output output>
-LANESCAPE_INLINE void one_sweep(const double* points, const std::uint32_t* places, std::size_t count, const Displacement& row,
+LANESCAPE_INLINE void one_sweep(const double* points, const std::uint32_t* offsets, std::size_t count, const Displacement& row,
                                 const Sweep& sweep, const StateTable& u, double* slopes, Displacement& g, StateTotals& totals) {
   const Table table{u.spline.records + point_width * (sweep.first_row_state * sweep.states + sweep.first_state),
                     broadcast(u.spline.per_unit), broadcast(u.spline.intervals), broadcast(u.origin), broadcast(u.cutoff_squared)};
   Vector sums[4] = {broadcast(0.0), broadcast(0.0), broadcast(0.0), broadcast(0.0)};
   std::size_t j = 0;
-  for (; j + lanes <= count; j += lanes) pair_vector<output, false>(points, places + j, row, sweep, table, {}, sums, g, totals);
+  for (; j + lanes <= count; j += lanes) pair_vector<output, false>(points, offsets + j, row, sweep, table, {}, sums, g, totals);
   if (j < count)
-    pair_vector<output, true>(points, places + j, row, sweep, table, lanes_below(static_cast<std::ptrdiff_t>(count - j)), sums, g,
+    pair_vector<output, true>(points, offsets + j, row, sweep, table, lanes_below(static_cast<std::ptrdiff_t>(count - j)), sums, g,
                               totals);
   for (std::size_t a = 0; a < sweep.row_states; ++a) {
     totals.energy += broadcast(sweep.row_probabilities[a]) * sums[a];
-    if (slopes) slopes[sweep.first_row_state + a] += sum_lanes(sums[a]);
+    if (slopes) slopes[sweep.first_row_state + a] += reduce_add(sums[a]);
   }
 }
 
 std::size_t four_at_most(std::size_t n) { return n < 4 ? n : 4; }
 
 template <Output output>
-LANESCAPE_INLINE void one_segment(const StateTableInput& in, const StateTable& table, const std::uint32_t* places,
+LANESCAPE_INLINE void one_segment(const StateTableInput& in, const StateTable& table, const std::uint32_t* offsets,
                                   std::size_t count, const Displacement& row, const double* p, double* slopes, Displacement& g,
                                   StateTotals& totals) {
   const std::size_t states = in.probabilities.states;
@@ -94,7 +94,7 @@ LANESCAPE_INLINE void one_segment(const StateTableInput& in, const StateTable& t
                         four_at_most(states - b),
                         p + a,
                         in.probabilities.points + b / 4 * in.probabilities.group_stride};
-      one_sweep<output>(in.list.points, places, count, row, sweep, table, slopes, g, totals);
+      one_sweep<output>(in.list.points, offsets, count, row, sweep, table, slopes, g, totals);
     }
 }
 
@@ -102,7 +102,7 @@ template <Output output>
 void sum_list(const StateTableInput& in, double* gradient, double* slopes, LjOutput& out) {
   const NeighbourRows& list = in.list;
   const std::size_t states = in.probabilities.states;
-  const std::uint32_t* places = list.neighbours;
+  const std::uint32_t* offsets = list.neighbours;
   const std::uint32_t* length = list.lengths;
   const Vector zero = broadcast(0.0);
   StateTotals totals;
@@ -113,8 +113,8 @@ void sum_list(const StateTableInput& in, double* gradient, double* slopes, LjOut
     for (std::size_t a = 0; slope && a < states; ++a) slope[a] = 0.0;
     for (std::size_t s = 0; s < list.species_count; ++s, ++length) {
       if (in.tables[s].cutoff_squared > 0.0)
-        one_segment<output>(in, in.tables[s], places, *length, row, in.probabilities.rows + k * states, slope, g, totals);
-      places += padded_length(*length);
+        one_segment<output>(in, in.tables[s], offsets, *length, row, in.probabilities.rows + k * states, slope, g, totals);
+      offsets += padded_length(*length);
     }
     if constexpr (output != Output::energy) store_point(gradient + point_width * k, g.x, g.y, g.z);
   }

@@ -18,7 +18,7 @@ inline double ordered_sum(std::size_t n, Term term) noexcept {
 #pragma GCC unroll 4
     for (std::size_t k = 0; k < partial_sums; ++k) sum[k] = term(i + k * lanes, sum[k]);
   for (; i < n; i += lanes) sum[0] = term(i, sum[0]);
-  return sum_lanes((sum[0] + sum[1]) + (sum[2] + sum[3]));
+  return reduce_add((sum[0] + sum[1]) + (sum[2] + sum[3]));
 }
 
 inline Vector squared_displacement(const double* a, const double* b, std::size_t slots, std::size_t i) noexcept {
@@ -63,7 +63,7 @@ DisplacementMoments displacement_moments(const double* a, const double* b, std::
     second += square;
     fourth = multiply_add(square, square, fourth);
   }
-  return {sum_lanes(second), sum_lanes(fourth)};
+  return {reduce_add(second), reduce_add(fourth)};
 }
 
 void add_particle_lengths(double* lengths, const double* a, const double* b, std::size_t slots) noexcept {
@@ -77,7 +77,7 @@ double largest_displacement_squared(const double* a, const double* b, std::size_
   for (std::size_t i = begin; i < end; i += lanes) {
     largest = maximum(largest, squared_displacement(a, b, slots, i));
   }
-  return largest_lane(largest);
+  return reduce_max(largest);
 }
 
 }  // namespace lanescape::kernels::LANESCAPE_ISA

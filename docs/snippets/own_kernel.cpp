@@ -48,9 +48,9 @@ void my_gradient(const LjInput& in, double* gradient, LjOutput& out) noexcept {
           const double d[3] = {nearest[0] + a * edge[0], nearest[1] + b * edge[1], nearest[2] + c * edge[2]};
           const double r2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
           if (!(r2 < u.cutoff_squared)) continue;
-          const double sixth = 1.0 / (r2 * r2 * r2);
-          const double virial = (12.0 * u.c12 * sixth - 6.0 * u.c6) * sixth;  // -r u'(r)
-          out.energy += (u.c12 * sixth - u.c6) * sixth - u.shift;
+          const double rinv6 = 1.0 / (r2 * r2 * r2);
+          const double virial = (12.0 * u.c12 * rinv6 - 6.0 * u.c6) * rinv6;  // -r u'(r)
+          out.energy += (u.c12 * rinv6 - u.c6) * rinv6 - u.shift;
           out.virial += virial;
           for (std::size_t k = 0; k < 3; ++k) {
             const double force = virial / r2 * d[k] * scale[k];
