@@ -8,7 +8,7 @@
 
 #include "bench_support.hpp"
 #include "insertion/insertion.hpp"
-#include "interaction/lennard_jones.hpp"
+#include "interaction/pair/pair_interaction.hpp"
 #include "verification/reference_bridge.hpp"
 
 namespace lanescape::bench {
@@ -16,15 +16,15 @@ namespace {
 
 constexpr std::size_t particles = 10'000;
 
-LennardJonesModel full_lennard_jones() {
-  LennardJonesModel model = lennard_jones();
+PairModel full_lennard_jones() {
+  PairModel model = lennard_jones();
   model.cutoff = 3.0;
   model.truncation = Truncation::tail;
   return model;
 }
 
 struct Fluid {
-  LennardJonesModel model = full_lennard_jones();
+  PairModel model = full_lennard_jones();
   Configuration configuration;
   double excess_energy = 0.0;
 };
@@ -37,7 +37,7 @@ const Fluid& fluid_at(double density, double temperature) {
   fluid.configuration = melted(fluid.model, particles, density, {temperature}, 2500, 50);
   fluid.configuration.wrap();
   const ParticleLayout layout = ParticleLayout::in_space_order(fluid.configuration, 1);
-  LennardJones interaction(fluid.model, fluid.configuration.box, layout, kernel_table(available_isas().front()));
+  PairInteraction interaction(fluid.model, fluid.configuration.box, layout, kernel_table(available_isas().front()));
   fluid.excess_energy = interaction.energy(layout.to_slots(fluid.configuration.positions)) / static_cast<double>(particles);
   return made.emplace(std::pair{density, temperature}, std::move(fluid)).first->second;
 }

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "bench_support.hpp"
-#include "interaction/lennard_jones.hpp"
+#include "interaction/pair/pair_interaction.hpp"
 #include "verification/kernel_checks.hpp"
 #include "verification/reference_bridge.hpp"
 
@@ -61,14 +61,14 @@ void set_counters(benchmark::State& state, double pairs, double seconds) {
 }
 
 // What is wrong with these kernels on this configuration; empty if nothing is.
-std::string check(Isa isa, const LennardJonesModel& model, const Configuration& configuration) {
+std::string check(Isa isa, const PairModel& model, const Configuration& configuration) {
   for (const Deviation& d : verify_lennard_jones(kernel_table(isa), {{"the benchmark's liquid", model, configuration}}))
     if (!d.passed()) return describe(d);
   return "";
 }
 
 void evaluate(benchmark::State& state, Quantity quantity, std::size_t particles, ImageRule images, Isa isa) {
-  const LennardJonesModel model = kob_andersen_with(images);
+  const PairModel model = kob_andersen_with(images);
   const Configuration& configuration = liquid(particles);
   if (const std::string wrong = check(isa, model, configuration); !wrong.empty()) return state.SkipWithError(wrong.c_str());
 
@@ -76,7 +76,7 @@ void evaluate(benchmark::State& state, Quantity quantity, std::size_t particles,
   const ParticleLayout layout(configuration.species, model.species.size());
   const AlignedArray positions = layout.to_slots(configuration.positions);
   AlignedArray gradient(layout.dimension(), 0.0);
-  LennardJones interaction(model, configuration.box, layout, table, {.search = PairSearch::all_pairs});
+  PairInteraction interaction(model, configuration.box, layout, table, {.search = PairSearch::all_pairs});
   const double limit = traits(quantity).vector_instructions * pair_count(particles) / static_cast<double>(table.lanes) *
                        seconds_per_vector_instruction(isa);
   const double seconds = timed(state, [&] {
@@ -96,7 +96,7 @@ void evaluate(benchmark::State& state, Quantity quantity, std::size_t particles,
 
 // For scale: the scalar arbiter, which always does everything.
 void evaluate_scalar_reference(benchmark::State& state, std::size_t particles, ImageRule images) {
-  const LennardJonesModel model = kob_andersen_with(images);
+  const PairModel model = kob_andersen_with(images);
   const Configuration& configuration = liquid(particles);
   const double seconds = timed(state, [&] { return evaluate_reference(model, configuration).energy; });
   set_counters(state, pair_count(particles), seconds);

@@ -24,7 +24,7 @@
 #include <string_view>
 
 #include "bench_support.hpp"
-#include "interaction/lennard_jones.hpp"
+#include "interaction/pair/pair_interaction.hpp"
 #include "io/extended_xyz.hpp"
 #include "neighbour/neighbour_list.hpp"
 #include "path/finder.hpp"
@@ -47,13 +47,13 @@ constexpr Size sizes[] = {{256, 1}, {4000, 1}, {4000, 2}, {4000, 4}, {2048, 8}};
 
 // A liquid with a gradient that the reference has confirmed.
 struct System {
-  LennardJonesModel model;
+  PairModel model;
   Configuration configuration;
   std::string wrong;  // what is wrong with the gradient; empty if nothing is
   double pairs = 0.0;
 };
 
-Configuration melt(const LennardJonesModel& model, std::size_t particles, double density) {
+Configuration melt(const PairModel& model, std::size_t particles, double density) {
   Configuration configuration = melted(model, particles, density, {5.0, 1.0}, 1500, 100, 2e-3, available_isas().back());
   configuration.wrap();
   return configuration;
@@ -75,8 +75,8 @@ Configuration surroundings(const Configuration& all, std::size_t particle, doubl
 
 std::string check_gradient(const System& system, Precision precision) {
   const ParticleLayout layout = ParticleLayout::in_space_order(system.configuration, system.model.species.size());
-  LennardJones interaction(system.model, system.configuration.box, layout, kernel_table(choose_isa("auto")),
-                           {.search = PairSearch::list, .precision = precision});
+  PairInteraction interaction(system.model, system.configuration.box, layout, kernel_table(choose_isa("auto")),
+                              {.search = PairSearch::list, .precision = precision});
   AlignedArray in_slots(layout.dimension(), 0.0);
   interaction.gradient(layout.to_slots(system.configuration.positions), in_slots);
   const std::vector<double> gradient = layout.to_user(in_slots);
@@ -96,7 +96,7 @@ std::string check_gradient(const System& system, Precision precision) {
 }
 
 // Pairs within the cutoff, each once.
-double count_pairs(const NeighbourList& list, const LennardJonesModel& model) {
+double count_pairs(const NeighbourList& list, const PairModel& model) {
   std::size_t ends = 0;
   for (std::size_t b = 0; b < list.block_count(); ++b) {
     const kernels::NeighbourRows rows = list.rows_of(b);
@@ -115,10 +115,11 @@ double count_pairs(const NeighbourList& list, const LennardJonesModel& model) {
   return 0.5 * static_cast<double>(ends);
 }
 
-System verified(const LennardJonesModel& model, Configuration configuration) {
+System verified(const PairModel& model, Configuration configuration) {
   System system{model, std::move(configuration), "", 0.0};
   const ParticleLayout layout = ParticleLayout::in_space_order(system.configuration, model.species.size());
-  LennardJones interaction(model, system.configuration.box, layout, kernel_table(choose_isa("auto")), {.search = PairSearch::list});
+  PairInteraction interaction(model, system.configuration.box, layout, kernel_table(choose_isa("auto")),
+                              {.search = PairSearch::list});
   interaction.energy(layout.to_slots(system.configuration.positions));  // makes the list
   system.wrong = check_gradient(system, Precision::double_precision) + check_gradient(system, Precision::mixed);
   system.pairs = count_pairs(*interaction.list(), model);
@@ -141,7 +142,7 @@ using Source = std::function<const System&()>;
 Source generated(const std::string& model_name, Size size) {
   return [=]() -> const System& {
     return system_of(fmt::format("{} {}", model_name, size.particles()), [&] {
-      const LennardJonesModel model = named_lennard_jones_model(model_name);
+      const PairModel model = named_pair_model(model_name);
       const Configuration base = melt(model, size.base, model_name == "kob-andersen" ? 1.2 : 0.8442);
       return verified(model, size.times == 1 ? base : repeated(base, size.times));
     });
@@ -189,7 +190,7 @@ void evaluate(benchmark::State& state, Quantity quantity, const Setting& setting
   const ParticleLayout layout = ParticleLayout::in_space_order(system.configuration, system.model.species.size());
   const AlignedArray positions = layout.to_slots(system.configuration.positions);
   AlignedArray gradient(layout.dimension(), 0.0);
-  LennardJones interaction(system.model, system.configuration.box, layout, kernel_table(setting.isa), setting.search());
+  PairInteraction interaction(system.model, system.configuration.box, layout, kernel_table(setting.isa), setting.search());
   const auto once = [&] {
     if (quantity == Quantity::energy) benchmark::DoNotOptimize(interaction.energy(positions));
     if (quantity == Quantity::force) interaction.gradient(positions, gradient);
@@ -235,7 +236,7 @@ void renew(benchmark::State& state, const Setting& setting) {
 void step(benchmark::State& state, const Setting& setting) {
   const System& system = setting.source();
   const ParticleLayout layout = ParticleLayout::in_space_order(system.configuration, system.model.species.size());
-  LennardJonesLandscape landscape(system.model, system.configuration.box, layout, setting.isa, setting.search());
+  PairLandscape landscape(system.model, system.configuration.box, layout, setting.isa, setting.search());
   VelocityVerlet verlet(landscape, system.model, layout, layout.to_slots(system.configuration.positions), md_time_step);
   verlet.draw_velocities(1.0, 1);
   const auto total = [&] { return (verlet.potential_energy() + verlet.kinetic_energy()) / static_cast<double>(layout.size()); };
@@ -250,7 +251,7 @@ void step(benchmark::State& state, const Setting& setting) {
 void contour_step(benchmark::State& state, const Setting& setting) {
   const System& system = setting.source();
   const ParticleLayout layout = ParticleLayout::in_space_order(system.configuration, system.model.species.size());
-  LennardJonesLandscape landscape(
+  PairLandscape landscape(
       system.model, system.configuration.box, layout, setting.isa,
       {.search = PairSearch::list, .threads = setting.threads, .skin = path_skin, .precision = setting.precision});
   AlignedArray start = layout.to_slots(system.configuration.positions), goal, gradient(layout.dimension(), 0.0);
@@ -332,7 +333,7 @@ int run(int argc, char** argv) {
                               fmt::format("{:.1f}", 2e-9 * static_cast<double>(kernel_table(choose_isa("auto")).lanes) /
                                                         seconds_per_vector_instruction(choose_isa("auto"))));
   if (!file.empty()) {
-    const LennardJonesModel model = named_lennard_jones_model(chosen.empty() ? "kob-andersen" : chosen);
+    const PairModel model = named_pair_model(chosen.empty() ? "kob-andersen" : chosen);
     const Configuration configuration = read_frames(file, model).front().configuration;
     const auto source = [=]() -> const System& { return system_of(file, [&] { return verified(model, configuration); }); };
     register_system(model.name, configuration.size(), source);

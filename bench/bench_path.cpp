@@ -16,7 +16,7 @@
 namespace lanescape::bench {
 namespace {
 
-ConfigurationPair read_pair(const LennardJonesModel& model) {
+ConfigurationPair read_pair(const PairModel& model) {
   const auto frames = read_frames(LANESCAPE_BENCH_DATA_DIR "/ka108-T1-pair.extxyz", model);
   return {frames.front().configuration, frames.back().configuration};
 }
@@ -33,7 +33,7 @@ double polyline_length(const std::vector<Configuration>& frames) {
 }
 
 // What is wrong with a path by the scalar reference and by geometry; empty if nothing is.
-std::string check(const PathResult& path, const LennardJonesModel& model, PathMethod method) {
+std::string check(const PathResult& path, const PairModel& model, PathMethod method) {
   if (path.outcome != Outcome::reached) return fmt::format("{}: {}", to_string(path.outcome), path.reason);
   const double allowed = method == PathMethod::escape ? EscapeStepper::Options{}.tolerance : 0.0;
   if (path.largest_violation > allowed) return fmt::format("V exceeds E_L by {}", path.largest_violation);
@@ -49,7 +49,7 @@ std::string check(const PathResult& path, const LennardJonesModel& model, PathMe
 }
 
 void find_path(benchmark::State& state, PathMethod method, ImageRule images) {
-  const LennardJonesModel model = kob_andersen_with(images);
+  const PairModel model = kob_andersen_with(images);
   const ConfigurationPair pair = read_pair(model);
   PathRunOptions options;
   options.method = method;

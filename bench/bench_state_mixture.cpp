@@ -22,8 +22,8 @@
 #include <string>
 
 #include "bench_support.hpp"
-#include "interaction/local_density.hpp"
-#include "interaction/state_mixture.hpp"
+#include "interaction/state/local_density.hpp"
+#include "interaction/state/state_mixture.hpp"
 #include "verification/state_mixture_checks.hpp"
 
 namespace lanescape::bench {
@@ -118,8 +118,8 @@ void time_lennard_jones(benchmark::State& state, std::size_t times, int threads)
   const Configuration c = liquid_of(times);
   const ParticleLayout layout = ParticleLayout::in_space_order(c, 1);
   const AlignedArray positions = layout.to_slots(c.positions);
-  LennardJones interaction(lennard_jones(), c.box, layout, kernel_table(choose_isa("auto")),
-                           {.search = PairSearch::list, .threads = threads});
+  PairInteraction interaction(lennard_jones(), c.box, layout, kernel_table(choose_isa("auto")),
+                              {.search = PairSearch::list, .threads = threads});
   AlignedArray gradient(layout.dimension());
   interaction.energy_and_gradient(positions, gradient);  // makes the list
   for (auto _ : state) benchmark::DoNotOptimize(interaction.energy_and_gradient(positions, gradient));

@@ -16,31 +16,31 @@
 #include "configuration/configuration.hpp"
 #include "configuration/hard_sphere_model.hpp"
 #include "configuration/lattice.hpp"
-#include "configuration/lennard_jones_model.hpp"
+#include "configuration/pair_model.hpp"
 #include "configuration/particle_layout.hpp"
 #include "core/run_monitor.hpp"
 #include "dispatch/isa.hpp"
 #include "dynamics/event_driven.hpp"
 #include "dynamics/hard_sphere_start.hpp"
 #include "dynamics/velocity_verlet.hpp"
-#include "landscape/lennard_jones_landscape.hpp"
+#include "landscape/pair_landscape.hpp"
 
 namespace lanescape::bench {
 
-inline LennardJonesModel kob_andersen_with(ImageRule images) {
-  LennardJonesModel model = kob_andersen();
+inline PairModel kob_andersen_with(ImageRule images) {
+  PairModel model = kob_andersen();
   model.images = images;
   return model;
 }
 
 // A liquid made from a lattice: `steps` steps of molecular dynamics at each of these temperatures, put right every so many of them.
 // The same bits whichever kernels are timed later, if it is the least instruction set that makes it.
-inline Configuration melted(const LennardJonesModel& model, std::size_t particles, double density,
+inline Configuration melted(const PairModel& model, std::size_t particles, double density,
                             std::initializer_list<double> temperatures, int steps, int rescale_interval, double time_step = 2e-3,
                             Isa isa = available_isas().front()) {
   Configuration configuration = fcc_start(model, particles, density, 1);
   const ParticleLayout layout = ParticleLayout::in_space_order(configuration, model.species.size());
-  LennardJonesLandscape landscape(model, configuration.box, layout, isa);
+  PairLandscape landscape(model, configuration.box, layout, isa);
   VelocityVerlet verlet(landscape, model, layout, layout.to_slots(configuration.positions), time_step);
   verlet.draw_velocities(*temperatures.begin(), 1);
   for (const double temperature : temperatures)

@@ -16,19 +16,19 @@
 
 #include "configuration/hard_sphere_model.hpp"
 #include "configuration/lattice.hpp"
-#include "configuration/lennard_jones_model.hpp"
+#include "configuration/pair_model.hpp"
 #include "configuration/particle_layout.hpp"
 #include "core/error.hpp"
 #include "core/random.hpp"
 #include "dispatch/isa.hpp"
 #include "dynamics/event_driven.hpp"
-#include "interaction/hard_sphere.hpp"
-#include "interaction/lennard_jones.hpp"
-#include "interaction/probe_field.hpp"
-#include "interaction/state_mixture.hpp"
+#include "interaction/pair/pair_interaction.hpp"
+#include "interaction/pair/probe_field.hpp"
+#include "interaction/sphere/hard_sphere.hpp"
+#include "interaction/state/state_mixture.hpp"
 #include "io/extended_xyz.hpp"
 #include "landscape/hard_sphere_landscape.hpp"
-#include "landscape/lennard_jones_landscape.hpp"
+#include "landscape/pair_landscape.hpp"
 #include "neighbour/neighbour_list.hpp"
 #include "path/finder.hpp"
 #include "stepper/avoidance.hpp"
@@ -45,16 +45,16 @@ void keep(const T& value) {
 
 // Both ends of a Kob-Andersen path, N = 108, T = 1, and what evaluates them.
 struct SoftLiquid {
-  LennardJonesModel model = kob_andersen();
+  PairModel model = kob_andersen();
   std::vector<Frame> frames = read_frames(LANESCAPE_BENCH_DATA_DIR "/ka108-T1-pair.extxyz", model);
   const Configuration& start = frames.front().configuration;
   ParticleLayout layout{start.species, model.species.size()};
   AlignedArray positions = layout.to_slots(start.positions), goal = layout.to_slots(frames.back().configuration.positions);
   AlignedArray out = AlignedArray(layout.dimension(), 0.0);
 
-  LennardJones nearest_images(Isa isa) {
+  PairInteraction nearest_images(Isa isa) {
     model.images = ImageRule::minimum;
-    return LennardJones(model, start.box, layout, kernel_table(isa));
+    return PairInteraction(model, start.box, layout, kernel_table(isa));
   }
 };
 
@@ -92,26 +92,26 @@ void walk(const VectorAlgebra& algebra, Stepper stepper, const AlignedArray& sta
 
 void lj_energy(Isa isa, std::uint64_t rounds) {
   SoftLiquid liquid;
-  LennardJones interaction = liquid.nearest_images(isa);
+  PairInteraction interaction = liquid.nearest_images(isa);
   for (; rounds > 0; --rounds) keep(interaction.energy(liquid.positions));
 }
 
 void lj_gradient(Isa isa, std::uint64_t rounds) {
   SoftLiquid liquid;
-  LennardJones interaction = liquid.nearest_images(isa);
+  PairInteraction interaction = liquid.nearest_images(isa);
   for (; rounds > 0; --rounds) keep(interaction.energy_and_gradient(liquid.positions, liquid.out));
 }
 
 void lj_stress(Isa isa, std::uint64_t rounds) {
   SoftLiquid liquid;
-  LennardJones interaction = liquid.nearest_images(isa);
+  PairInteraction interaction = liquid.nearest_images(isa);
   for (; rounds > 0; --rounds) keep(interaction.energy_and_stress(liquid.positions, liquid.out));
 }
 
 // A list over Kob-Andersen's mixture, N = 500, a shaken lattice: as large as a count under valgrind allows, and large enough for
 // rows to be those of a large system.
 struct ListLiquid {
-  LennardJonesModel model = kob_andersen();
+  PairModel model = kob_andersen();
   Configuration start = fcc_start(model, 500, 1.2, 1);
   ParticleLayout layout{start.species, model.species.size()};
   AlignedArray positions, moved, out = AlignedArray(layout.dimension(), 0.0);
@@ -123,44 +123,44 @@ struct ListLiquid {
     for (double& x : start.positions) x += default_skin;
     moved = layout.to_slots(start.positions);
   }
-  LennardJones interaction(Isa isa, Precision precision = Precision::double_precision) const {
-    return LennardJones(model, start.box, layout, kernel_table(isa), {.search = PairSearch::list, .precision = precision});
+  PairInteraction interaction(Isa isa, Precision precision = Precision::double_precision) const {
+    return PairInteraction(model, start.box, layout, kernel_table(isa), {.search = PairSearch::list, .precision = precision});
   }
 };
 
 void lj_list_energy(Isa isa, std::uint64_t rounds) {
   const ListLiquid liquid;
-  LennardJones interaction = liquid.interaction(isa);
+  PairInteraction interaction = liquid.interaction(isa);
   for (; rounds > 0; --rounds) keep(interaction.energy(liquid.positions));
 }
 
 void lj_list_force(Isa isa, std::uint64_t rounds) {
   ListLiquid liquid;
-  LennardJones interaction = liquid.interaction(isa);
+  PairInteraction interaction = liquid.interaction(isa);
   for (; rounds > 0; --rounds) interaction.gradient(liquid.positions, liquid.out);
 }
 
 void lj_list_gradient(Isa isa, std::uint64_t rounds) {
   ListLiquid liquid;
-  LennardJones interaction = liquid.interaction(isa);
+  PairInteraction interaction = liquid.interaction(isa);
   for (; rounds > 0; --rounds) keep(interaction.energy_and_gradient(liquid.positions, liquid.out));
 }
 
 void lj_list_stress(Isa isa, std::uint64_t rounds) {
   ListLiquid liquid;
-  LennardJones interaction = liquid.interaction(isa);
+  PairInteraction interaction = liquid.interaction(isa);
   for (; rounds > 0; --rounds) keep(interaction.energy_and_stress(liquid.positions, liquid.out));
 }
 
 void lj_list_energy_mixed(Isa isa, std::uint64_t rounds) {
   const ListLiquid liquid;
-  LennardJones interaction = liquid.interaction(isa, Precision::mixed);
+  PairInteraction interaction = liquid.interaction(isa, Precision::mixed);
   for (; rounds > 0; --rounds) keep(interaction.energy(liquid.positions));
 }
 
 void lj_list_gradient_mixed(Isa isa, std::uint64_t rounds) {
   ListLiquid liquid;
-  LennardJones interaction = liquid.interaction(isa, Precision::mixed);
+  PairInteraction interaction = liquid.interaction(isa, Precision::mixed);
   for (; rounds > 0; --rounds) keep(interaction.energy_and_gradient(liquid.positions, liquid.out));
 }
 
@@ -191,7 +191,7 @@ void neighbour_list(Isa isa, std::uint64_t rounds) {
 // All images within the cutoff.
 void contour_step(Isa isa, std::uint64_t rounds) {
   SoftLiquid liquid;
-  LennardJonesLandscape landscape(liquid.model, liquid.start.box, liquid.layout, isa);
+  PairLandscape landscape(liquid.model, liquid.start.box, liquid.layout, isa);
   const double landscape_energy = std::max(landscape.energy(liquid.positions), landscape.energy(liquid.goal));
   walk(landscape.algebra(), ContourStepper(landscape, landscape_energy, {}), liquid.positions, liquid.goal, liquid.start.size(),
        rounds);

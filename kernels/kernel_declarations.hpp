@@ -7,16 +7,16 @@
 namespace lanescape::kernels::LANESCAPE_ISA {
 
 double lj_energy(const LjInput& in) noexcept;
-void lj_gradient(const LjInput& in, double* gradient, LjOutput& out) noexcept;
-void lj_stress(const LjInput& in, double* gradient, LjOutput& out) noexcept;
+void lj_gradient(const LjInput& in, double* gradient, PairOutput& out) noexcept;
+void lj_stress(const LjInput& in, double* gradient, PairOutput& out) noexcept;
 
 double lj_list_energy(const LjListInput& in) noexcept;
 void lj_list_force(const LjListInput& in, double* gradient) noexcept;
-void lj_list_gradient(const LjListInput& in, double* gradient, LjOutput& out) noexcept;
-void lj_list_stress(const LjListInput& in, double* gradient, LjOutput& out) noexcept;
+void lj_list_gradient(const LjListInput& in, double* gradient, PairOutput& out) noexcept;
+void lj_list_stress(const LjListInput& in, double* gradient, PairOutput& out) noexcept;
 double lj_list_energy_mixed(const LjListInput& in) noexcept;
 void lj_list_force_mixed(const LjListInput& in, double* gradient) noexcept;
-void lj_list_gradient_mixed(const LjListInput& in, double* gradient, LjOutput& out) noexcept;
+void lj_list_gradient_mixed(const LjListInput& in, double* gradient, PairOutput& out) noexcept;
 std::size_t points_within(const PointGrid& grid, const NeighbourQuery& query, std::uint32_t* out, std::size_t capacity) noexcept;
 void lj_probe(const ProbeInput& in, const double* position, ProbeOutput& out) noexcept;
 void lj_probe_energies(const ProbeInput& in, const double* positions, std::size_t count, double* energies) noexcept;
@@ -25,13 +25,13 @@ std::size_t lj_probe_first_clear(const ProbeInput& in, const double* clearances,
 
 void state_densities(const StateDensityInput& in, double* densities) noexcept;
 double state_lj_energy(const StateLjInput& in) noexcept;
-void state_lj_gradient(const StateLjInput& in, double* gradient, double* slopes, LjOutput& out) noexcept;
-void state_lj_stress(const StateLjInput& in, double* gradient, double* slopes, LjOutput& out) noexcept;
+void state_lj_gradient(const StateLjInput& in, double* gradient, double* slopes, PairOutput& out) noexcept;
+void state_lj_stress(const StateLjInput& in, double* gradient, double* slopes, PairOutput& out) noexcept;
 double state_table_energy(const StateTableInput& in) noexcept;
-void state_table_gradient(const StateTableInput& in, double* gradient, double* slopes, LjOutput& out) noexcept;
-void state_table_stress(const StateTableInput& in, double* gradient, double* slopes, LjOutput& out) noexcept;
-void state_density_gradient(const StateDensityForceInput& in, double* gradient, LjOutput& out) noexcept;
-void state_density_stress(const StateDensityForceInput& in, double* gradient, LjOutput& out) noexcept;
+void state_table_gradient(const StateTableInput& in, double* gradient, double* slopes, PairOutput& out) noexcept;
+void state_table_stress(const StateTableInput& in, double* gradient, double* slopes, PairOutput& out) noexcept;
+void state_density_gradient(const StateDensityForceInput& in, double* gradient, PairOutput& out) noexcept;
+void state_density_stress(const StateDensityForceInput& in, double* gradient, PairOutput& out) noexcept;
 
 bool sphere_any_overlap(const SphereInput& in) noexcept;
 std::size_t sphere_pairs_within(const SphereInput& in, double reach, SpherePair* out, std::size_t capacity) noexcept;

@@ -11,21 +11,21 @@ struct KernelTable {
 
   // Lennard-Jones mixtures over all pairs. The three give bit-equal energies and virials.
   double (*lj_energy)(const LjInput&) noexcept;
-  void (*lj_gradient)(const LjInput&, double* gradient, LjOutput&) noexcept;
-  void (*lj_stress)(const LjInput&, double* gradient, LjOutput&) noexcept;
+  void (*lj_gradient)(const LjInput&, double* gradient, PairOutput&) noexcept;
+  void (*lj_stress)(const LjInput&, double* gradient, PairOutput&) noexcept;
 
   // The same over a neighbour list, for rows [0, row_count); energy and virial are these rows' share: half of each of their pairs.
   // `gradient` gets a point per row. The four agree to the bit in what they have in common.
   double (*lj_list_energy)(const LjListInput&) noexcept;
   void (*lj_list_force)(const LjListInput&, double* gradient) noexcept;
-  void (*lj_list_gradient)(const LjListInput&, double* gradient, LjOutput&) noexcept;
-  void (*lj_list_stress)(const LjListInput&, double* gradient, LjOutput&) noexcept;
+  void (*lj_list_gradient)(const LjListInput&, double* gradient, PairOutput&) noexcept;
+  void (*lj_list_stress)(const LjListInput&, double* gradient, PairOutput&) noexcept;
   // The same in mixed precision, which needs NeighbourRows::fixed_points: pairs in single precision, sums over all but the lanes of
   // one row in double. A pair nearer to the cutoff than 2^-22 of it may or may not count. The three agree to the bit in what they
   // have in common.
   double (*lj_list_energy_mixed)(const LjListInput&) noexcept;
   void (*lj_list_force_mixed)(const LjListInput&, double* gradient) noexcept;
-  void (*lj_list_gradient_mixed)(const LjListInput&, double* gradient, LjOutput&) noexcept;
+  void (*lj_list_gradient_mixed)(const LjListInput&, double* gradient, PairOutput&) noexcept;
   // Places of all points of a grid within reach of a position, and of some that are up to a millionth of the grid's length further,
   // in rising order; their number, or capacity + 1 where there may be no room for all of them and a vector more.
   std::size_t (*points_within)(const PointGrid&, const NeighbourQuery&, std::uint32_t* out, std::size_t capacity) noexcept;
@@ -42,14 +42,14 @@ struct KernelTable {
   // At fixed probabilities: `slopes` gets dU/dp, row_count x states (each pair counts in full), `gradient` a point per row, energy
   // and virial are these rows' share. The three agree to the bit in what they have in common; with one state they and lj_list_* do.
   double (*state_lj_energy)(const StateLjInput&) noexcept;
-  void (*state_lj_gradient)(const StateLjInput&, double* gradient, double* slopes, LjOutput&) noexcept;
-  void (*state_lj_stress)(const StateLjInput&, double* gradient, double* slopes, LjOutput&) noexcept;
+  void (*state_lj_gradient)(const StateLjInput&, double* gradient, double* slopes, PairOutput&) noexcept;
+  void (*state_lj_stress)(const StateLjInput&, double* gradient, double* slopes, PairOutput&) noexcept;
   double (*state_table_energy)(const StateTableInput&) noexcept;
-  void (*state_table_gradient)(const StateTableInput&, double* gradient, double* slopes, LjOutput&) noexcept;
-  void (*state_table_stress)(const StateTableInput&, double* gradient, double* slopes, LjOutput&) noexcept;
+  void (*state_table_gradient)(const StateTableInput&, double* gradient, double* slopes, PairOutput&) noexcept;
+  void (*state_table_stress)(const StateTableInput&, double* gradient, double* slopes, PairOutput&) noexcept;
   // By way of the densities, given dU/drho of each site; there is no energy.
-  void (*state_density_gradient)(const StateDensityForceInput&, double* gradient, LjOutput&) noexcept;
-  void (*state_density_stress)(const StateDensityForceInput&, double* gradient, LjOutput&) noexcept;
+  void (*state_density_gradient)(const StateDensityForceInput&, double* gradient, PairOutput&) noexcept;
+  void (*state_density_stress)(const StateDensityForceInput&, double* gradient, PairOutput&) noexcept;
 
   // Hard spheres over all pairs: whether any overlap; the pairs with r < s_ij + reach (their number, which may exceed the
   // capacity: then only so many are written); the smallest r - s_ij (infinity where there is no pair).

@@ -67,8 +67,7 @@ LANESCAPE_INLINE Displacement next_image(const Displacement& d, const Box& box, 
     const Vector largest = maximum(ax, maximum(ay, az));
     r2 = subtract_product(r2 + broadcast(1.0), broadcast(2.0), largest);
     const Vector one = broadcast(1.0);
-    return {select(less(ax, largest), d.x, d.x - copy_sign(one, d.x)),
-            select(less(ay, largest), d.y, d.y - copy_sign(one, d.y)),
+    return {select(less(ax, largest), d.x, d.x - copy_sign(one, d.x)), select(less(ay, largest), d.y, d.y - copy_sign(one, d.y)),
             select(less(az, largest), d.z, d.z - copy_sign(one, d.z))};
   } else {
     const auto& l = box.length;
@@ -177,7 +176,7 @@ LANESCAPE_INLINE void tile_against_block(const LjInput& in, const SpeciesBlock& 
 }
 
 template <Output output, LengthUnit unit>
-void all_pairs(const LjInput& in, double* gradient, LjOutput& out) {
+void all_pairs(const LjInput& in, double* gradient, PairOutput& out) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const Vector inverse_length = broadcast(1.0 / in.box[axis]);
     for (std::size_t i = axis * in.slots; i < (axis + 1) * in.slots; i += lanes) {
@@ -227,7 +226,7 @@ void all_pairs(const LjInput& in, double* gradient, LjOutput& out) {
 }
 
 template <Output output>
-void any_box(const LjInput& in, double* gradient, LjOutput& out) {
+void any_box(const LjInput& in, double* gradient, PairOutput& out) {
   if (in.unit == LengthUnit::box)
     all_pairs<output, LengthUnit::box>(in, gradient, out);
   else
@@ -237,13 +236,13 @@ void any_box(const LjInput& in, double* gradient, LjOutput& out) {
 }  // namespace
 
 double lj_energy(const LjInput& in) noexcept {
-  LjOutput out;
+  PairOutput out;
   any_box<Output::energy>(in, nullptr, out);
   return out.energy;
 }
 
-void lj_gradient(const LjInput& in, double* gradient, LjOutput& out) noexcept { any_box<Output::gradient>(in, gradient, out); }
+void lj_gradient(const LjInput& in, double* gradient, PairOutput& out) noexcept { any_box<Output::gradient>(in, gradient, out); }
 
-void lj_stress(const LjInput& in, double* gradient, LjOutput& out) noexcept { any_box<Output::stress>(in, gradient, out); }
+void lj_stress(const LjInput& in, double* gradient, PairOutput& out) noexcept { any_box<Output::stress>(in, gradient, out); }
 
 }  // namespace lanescape::kernels::LANESCAPE_ISA

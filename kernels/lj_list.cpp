@@ -72,7 +72,7 @@ LANESCAPE_INLINE void all_rows(const LjListInput& in, double* gradient, Totals& 
 }
 
 template <Output output>
-void sum_list(const LjListInput& in, double* gradient, LjOutput& out) {
+void sum_list(const LjListInput& in, double* gradient, PairOutput& out) {
   Totals totals;
   all_rows<output>(in, gradient, totals);
   // Every pair was met from both ends.
@@ -85,7 +85,7 @@ void sum_list(const LjListInput& in, double* gradient, LjOutput& out) {
 }  // namespace
 
 double lj_list_energy(const LjListInput& in) noexcept {
-  LjOutput out;
+  PairOutput out;
   sum_list<Output::energy>(in, nullptr, out);
   return out.energy;
 }
@@ -95,11 +95,11 @@ void lj_list_force(const LjListInput& in, double* gradient) noexcept {
   all_rows<Output::force>(in, gradient, totals);
 }
 
-void lj_list_gradient(const LjListInput& in, double* gradient, LjOutput& out) noexcept {
+void lj_list_gradient(const LjListInput& in, double* gradient, PairOutput& out) noexcept {
   sum_list<Output::gradient>(in, gradient, out);
 }
 
-void lj_list_stress(const LjListInput& in, double* gradient, LjOutput& out) noexcept {
+void lj_list_stress(const LjListInput& in, double* gradient, PairOutput& out) noexcept {
   sum_list<Output::stress>(in, gradient, out);
 }
 

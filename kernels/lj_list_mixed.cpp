@@ -104,7 +104,7 @@ void lj_list_force_mixed(const LjListInput& in, double* gradient) noexcept {
   all_rows<Output::force>(in, gradient, totals);
 }
 
-void lj_list_gradient_mixed(const LjListInput& in, double* gradient, LjOutput& out) noexcept {
+void lj_list_gradient_mixed(const LjListInput& in, double* gradient, PairOutput& out) noexcept {
   Totals totals;
   all_rows<Output::gradient>(in, gradient, totals);
   // Every pair was met from both ends.

@@ -148,7 +148,7 @@ LANESCAPE_INLINE void force_segment(const double* points, const std::uint32_t* o
 }
 
 template <bool with_tensor>
-void sum_forces(const StateDensityForceInput& in, double* gradient, LjOutput& out) {
+void sum_forces(const StateDensityForceInput& in, double* gradient, PairOutput& out) {
   const NeighbourRows& list = in.list;
   const std::uint32_t* offsets = list.neighbours;
   const std::uint32_t* length = list.lengths;
@@ -206,11 +206,11 @@ void state_densities(const StateDensityInput& in, double* densities) noexcept {
   }
 }
 
-void state_density_gradient(const StateDensityForceInput& in, double* gradient, LjOutput& out) noexcept {
+void state_density_gradient(const StateDensityForceInput& in, double* gradient, PairOutput& out) noexcept {
   sum_forces<false>(in, gradient, out);
 }
 
-void state_density_stress(const StateDensityForceInput& in, double* gradient, LjOutput& out) noexcept {
+void state_density_stress(const StateDensityForceInput& in, double* gradient, PairOutput& out) noexcept {
   sum_forces<true>(in, gradient, out);
 }
 

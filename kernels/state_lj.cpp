@@ -181,7 +181,7 @@ void all_rows(const StateLjInput& in, double* gradient, double* slopes, StateTot
 }
 
 template <Output output>
-void sum_list(const StateLjInput& in, double* gradient, double* slopes, LjOutput& out) {
+void sum_list(const StateLjInput& in, double* gradient, double* slopes, PairOutput& out) {
   StateTotals totals;
   switch (in.probabilities.states) {
     case 1:
@@ -199,16 +199,16 @@ void sum_list(const StateLjInput& in, double* gradient, double* slopes, LjOutput
 }  // namespace
 
 double state_lj_energy(const StateLjInput& in) noexcept {
-  LjOutput out;
+  PairOutput out;
   sum_list<Output::energy>(in, nullptr, nullptr, out);
   return out.energy;
 }
 
-void state_lj_gradient(const StateLjInput& in, double* gradient, double* slopes, LjOutput& out) noexcept {
+void state_lj_gradient(const StateLjInput& in, double* gradient, double* slopes, PairOutput& out) noexcept {
   sum_list<Output::gradient>(in, gradient, slopes, out);
 }
 
-void state_lj_stress(const StateLjInput& in, double* gradient, double* slopes, LjOutput& out) noexcept {
+void state_lj_stress(const StateLjInput& in, double* gradient, double* slopes, PairOutput& out) noexcept {
   sum_list<Output::stress>(in, gradient, slopes, out);
 }
 

@@ -78,7 +78,7 @@ struct StateTotals : Totals {
 };
 
 // Every pair was met from both ends.
-inline void put_totals(const StateTotals& totals, bool with_tensor, LjOutput& out) {
+inline void put_totals(const StateTotals& totals, bool with_tensor, PairOutput& out) {
   out.energy = 0.5 * (reduce_add(totals.energy) + totals.rows_energy);
   out.virial = 0.5 * (reduce_add(totals.virial) + totals.rows_virial);
   if (with_tensor)

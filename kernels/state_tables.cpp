@@ -99,7 +99,7 @@ LANESCAPE_INLINE void one_segment(const StateTableInput& in, const StateTable& t
 }
 
 template <Output output>
-void sum_list(const StateTableInput& in, double* gradient, double* slopes, LjOutput& out) {
+void sum_list(const StateTableInput& in, double* gradient, double* slopes, PairOutput& out) {
   const NeighbourRows& list = in.list;
   const std::size_t states = in.probabilities.states;
   const std::uint32_t* offsets = list.neighbours;
@@ -124,16 +124,16 @@ void sum_list(const StateTableInput& in, double* gradient, double* slopes, LjOut
 }  // namespace
 
 double state_table_energy(const StateTableInput& in) noexcept {
-  LjOutput out;
+  PairOutput out;
   sum_list<Output::energy>(in, nullptr, nullptr, out);
   return out.energy;
 }
 
-void state_table_gradient(const StateTableInput& in, double* gradient, double* slopes, LjOutput& out) noexcept {
+void state_table_gradient(const StateTableInput& in, double* gradient, double* slopes, PairOutput& out) noexcept {
   sum_list<Output::gradient>(in, gradient, slopes, out);
 }
 
-void state_table_stress(const StateTableInput& in, double* gradient, double* slopes, LjOutput& out) noexcept {
+void state_table_stress(const StateTableInput& in, double* gradient, double* slopes, PairOutput& out) noexcept {
   sum_list<Output::stress>(in, gradient, slopes, out);
 }
 

@@ -50,7 +50,7 @@ struct LjInput {
   std::int32_t shells[3];  // largest image shift per axis, for ImageSearch::lattice
 };
 
-struct LjOutput {
+struct PairOutput {
   double energy;            // [epsilon]
   double virial;            // sum over pairs of r.f [epsilon]
   double virial_tensor[6];  // sum of r_a f_b, Voigt order xx yy zz yz xz xy; written by lj_stress only

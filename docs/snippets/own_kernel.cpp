@@ -11,7 +11,7 @@
 #include "configuration/particle_layout.hpp"
 #include "core/aligned_array.hpp"
 #include "dispatch/isa.hpp"
-#include "interaction/lennard_jones.hpp"
+#include "interaction/pair/pair_interaction.hpp"
 #include "kernel_table.hpp"
 #include "verification/cases.hpp"
 #include "verification/kernel_checks.hpp"
@@ -22,10 +22,10 @@ namespace {
 using namespace lanescape;
 using kernels::KernelTable;
 using kernels::LjInput;
-using kernels::LjOutput;
+using kernels::PairOutput;
 
 // The kernel: energy, virial and gradient over all pairs and all images within the cutoff, without vectors.
-void my_gradient(const LjInput& in, double* gradient, LjOutput& out) noexcept {
+void my_gradient(const LjInput& in, double* gradient, PairOutput& out) noexcept {
   out.energy = out.virial = 0.0;
   std::fill(gradient, gradient + 3 * in.slots, 0.0);
   // The pairs' parameters are in this unit of length.
@@ -67,7 +67,7 @@ void my_gradient(const LjInput& in, double* gradient, LjOutput& out) noexcept {
 }
 
 // The same with a fault: one particle feels no force along x.
-void faulty_gradient(const LjInput& in, double* gradient, LjOutput& out) noexcept {
+void faulty_gradient(const LjInput& in, double* gradient, PairOutput& out) noexcept {
   my_gradient(in, gradient, out);
   if (in.block_count > 0 && in.blocks[0].count > 0) gradient[in.blocks[0].begin + in.blocks[0].count - 1] = 0.0;
 }
@@ -82,7 +82,7 @@ KernelTable table_with(decltype(KernelTable::lj_gradient) gradient, const char* 
 // What lj_gradient of this table gives, against the scalar reference on every case; a line for each result.
 bool verified(const KernelTable& table) {
   bool passed = true;
-  for (const Deviation& deviation : verify_lennard_jones(table, lennard_jones_cases())) {
+  for (const Deviation& deviation : verify_lennard_jones(table, pair_cases())) {
     if (!deviation.kernel.starts_with("lj_gradient ")) continue;
     fmt::print("{}: {}\n", deviation.passed() ? "passed" : "FAILED", describe(deviation));
     passed = passed && deviation.passed();
@@ -91,14 +91,13 @@ bool verified(const KernelTable& table) {
 }
 
 // Kob-Andersen's mixture, N = 257, minimum image: the last of the largest cases.
-LennardJonesCase timed_case() {
-  const std::vector<LennardJonesCase> cases = lennard_jones_cases();
-  return *std::max_element(cases.rbegin(), cases.rend(), [](const LennardJonesCase& a, const LennardJonesCase& b) {
-    return a.configuration.size() < b.configuration.size();
-  });
+PairCase timed_case() {
+  const std::vector<PairCase> cases = pair_cases();
+  return *std::max_element(cases.rbegin(), cases.rend(),
+                           [](const PairCase& a, const PairCase& b) { return a.configuration.size() < b.configuration.size(); });
 }
 
-void set_time_per_pair(benchmark::State& state, const LennardJonesCase& one) {
+void set_time_per_pair(benchmark::State& state, const PairCase& one) {
   const auto n = static_cast<double>(one.configuration.size());
   using benchmark::Counter;
   state.SetLabel(one.name);
@@ -106,11 +105,11 @@ void set_time_per_pair(benchmark::State& state, const LennardJonesCase& one) {
 }
 
 void time_kernel(benchmark::State& state, const KernelTable& table) {
-  const LennardJonesCase one = timed_case();
+  const PairCase one = timed_case();
   const ParticleLayout layout(one.configuration.species, one.model.species.size());
   const AlignedArray positions = layout.to_slots(one.configuration.positions);
   AlignedArray gradient(layout.dimension());
-  LennardJones interaction(one.model, one.configuration.box, layout, table);
+  PairInteraction interaction(one.model, one.configuration.box, layout, table);
   for (auto _ : state) {
     benchmark::DoNotOptimize(interaction.energy_and_gradient(positions, gradient));
     benchmark::ClobberMemory();
@@ -119,7 +118,7 @@ void time_kernel(benchmark::State& state, const KernelTable& table) {
 }
 
 void time_reference(benchmark::State& state) {
-  const LennardJonesCase one = timed_case();
+  const PairCase one = timed_case();
   for (auto _ : state) benchmark::DoNotOptimize(evaluate_reference(one.model, one.configuration));
   set_time_per_pair(state, one);
 }

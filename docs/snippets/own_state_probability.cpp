@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "interaction/state_potentials.hpp"
+#include "interaction/state/state_potentials.hpp"
 #include "state_check.hpp"
 
 namespace {

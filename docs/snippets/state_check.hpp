@@ -9,7 +9,7 @@
 
 #include "configuration/particle_layout.hpp"
 #include "dispatch/isa.hpp"
-#include "interaction/state_mixture.hpp"
+#include "interaction/state/state_mixture.hpp"
 #include "verification/state_mixture_cases.hpp"
 
 // What both examples of state-probability interactions do at their end: hold forces and virial against differences of the energy.

@@ -8,7 +8,7 @@
 #include "configuration/particle_layout.hpp"
 #include "core/error.hpp"
 #include "dispatch/isa.hpp"
-#include "interaction/lennard_jones.hpp"
+#include "interaction/pair/pair_interaction.hpp"
 #include "neighbour/neighbour_pairs.hpp"
 
 namespace lanescape {
@@ -23,7 +23,7 @@ std::vector<std::string> instruction_sets() {
 
 struct LennardJonesPotential::Implementation {
   ParticleLayout layout;
-  LennardJones interaction;
+  PairInteraction interaction;
   AlignedArray gradient;
 
   AlignedArray to_slots(std::span<const double> positions) const {
@@ -36,7 +36,7 @@ struct LennardJonesPotential::Implementation {
 
 LennardJonesPotential::LennardJonesPotential(std::span<const int> species, const std::array<double, 3>& box,
                                              const Options& options) {
-  LennardJonesModel model = named_lennard_jones_model(options.model);
+  PairModel model = named_pair_model(options.model);
   model.cutoff = options.cutoff;
   model.truncation = parse_truncation(options.truncation);
   model.images = parse_image_rule(options.images);
@@ -49,7 +49,7 @@ LennardJonesPotential::LennardJonesPotential(std::span<const int> species, const
     if (s < 0 || s >= count)
       throw_bad_input(fmt::format("species {} is not allowed: model {} has 0 to {}", s, model.name, count - 1));
   ParticleLayout layout(std::vector<int>(species.begin(), species.end()), model.species.size());
-  LennardJones interaction(model, Box{box}, layout, kernel_table(choose_isa(options.isa)));
+  PairInteraction interaction(model, Box{box}, layout, kernel_table(choose_isa(options.isa)));
   AlignedArray gradient(layout.dimension(), 0.0);
   implementation_ =
       std::make_unique<Implementation>(Implementation{std::move(layout), std::move(interaction), std::move(gradient)});

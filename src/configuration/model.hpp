@@ -4,13 +4,13 @@
 #include <variant>
 
 #include "configuration/hard_sphere_model.hpp"
-#include "configuration/lennard_jones_model.hpp"
+#include "configuration/pair_model.hpp"
 #include "configuration/state_mixture_model.hpp"
 
 namespace lanescape {
 
 // What a name or a model file stands for.
-using Model = std::variant<LennardJonesModel, HardSphereModel, StateMixtureModel>;
+using Model = std::variant<PairModel, HardSphereModel, StateMixtureModel>;
 
 // "kob-andersen", "lennard-jones", "hard-sphere", "hard-sphere-binary" or "ucg"; anything else throws Error(bad_input) naming
 // these.

@@ -7,7 +7,7 @@
 
 #include "core/archive.hpp"
 #include "dynamics/velocity_verlet.hpp"
-#include "interaction/lennard_jones.hpp"
+#include "interaction/pair/pair_interaction.hpp"
 
 namespace lanescape {
 

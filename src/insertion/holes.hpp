@@ -3,7 +3,7 @@
 #include <array>
 #include <optional>
 
-#include "interaction/probe_field.hpp"
+#include "interaction/pair/probe_field.hpp"
 
 namespace lanescape {
 

@@ -10,7 +10,7 @@
 #include "core/archive.hpp"
 #include "core/box.hpp"
 #include "core/random.hpp"
-#include "interaction/probe_field.hpp"
+#include "interaction/pair/probe_field.hpp"
 
 // Putting particles where their energy has a given value: Delgado-Buscalioni and Coveney, J. Chem. Phys. 119, 978 (2003),
 // doi 10.1063/1.1579475 ([U]).

@@ -16,7 +16,7 @@ RemovalRule parse_removal_rule(std::string_view word) {
   throw_bad_input("removal '" + std::string(word) + "' is not allowed: random, least-disturbance");
 }
 
-std::optional<Removal> choose_removal(const LennardJonesModel& model, const Configuration& fluid, int species, RemovalRule rule,
+std::optional<Removal> choose_removal(const PairModel& model, const Configuration& fluid, int species, RemovalRule rule,
                                       const std::optional<Region>& region, double energy, const CounterRandom& random,
                                       std::uint64_t number, Isa isa) {
   std::vector<std::size_t> there;

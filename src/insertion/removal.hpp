@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "configuration/configuration.hpp"
-#include "configuration/lennard_jones_model.hpp"
+#include "configuration/pair_model.hpp"
 #include "core/random.hpp"
 #include "dispatch/isa.hpp"
 #include "insertion/insertion.hpp"
@@ -26,7 +26,7 @@ struct Removal {
 };
 
 // Which particle of a species to take out of a region, or the box; nothing where there is none. `number` tells draws apart. O(N).
-std::optional<Removal> choose_removal(const LennardJonesModel& model, const Configuration& fluid, int species, RemovalRule rule,
+std::optional<Removal> choose_removal(const PairModel& model, const Configuration& fluid, int species, RemovalRule rule,
                                       const std::optional<Region>& region, double energy, const CounterRandom& random,
                                       std::uint64_t number, Isa isa);
 

@@ -7,7 +7,7 @@
 
 #include "core/random.hpp"
 #include "insertion/insertion.hpp"
-#include "interaction/probe_field.hpp"
+#include "interaction/pair/probe_field.hpp"
 
 namespace lanescape {
 

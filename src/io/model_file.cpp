@@ -54,7 +54,7 @@ class ModelParser {
   std::string text(const toml::node& node, std::string_view key) const;
   std::vector<const toml::table*> tables(std::string_view key) const { return tables(root_, key); }
   std::vector<const toml::table*> tables(const toml::table& within, std::string_view key) const;
-  LennardJonesModel parse_lennard_jones(const std::string& name) const;
+  PairModel parse_lennard_jones(const std::string& name) const;
   HardSphereModel parse_hard_sphere(const std::string& name) const;
   StateMixtureModel parse_state_mixture(const std::string& name) const;
   StateMixtureModel::States parse_states(const toml::table& species) const;
@@ -65,7 +65,7 @@ class ModelParser {
                                                  const std::array<std::size_t, 2>& species) const;
   std::array<std::size_t, 2> parse_species_pair(const toml::table& pair, const Mixture& mixture) const;
   std::vector<Species> parse_species(std::initializer_list<std::string_view> keys) const;
-  void parse_pairs(LennardJonesModel& model) const;
+  void parse_pairs(PairModel& model) const;
   std::size_t species_index(const toml::node& node, const Mixture& mixture) const;
   // For library checks that know the model but not the file.
   template <class Action>
@@ -167,7 +167,7 @@ std::array<std::size_t, 2> ModelParser::parse_species_pair(const toml::table& pa
   return {species_index(*names->get(0), mixture), species_index(*names->get(1), mixture)};
 }
 
-void ModelParser::parse_pairs(LennardJonesModel& model) const {
+void ModelParser::parse_pairs(PairModel& model) const {
   const std::size_t n = model.species.size();
   model.epsilon.assign(n * n, 0.0);
   model.sigma.assign(n * n, 0.0);  // 0: not given yet
@@ -188,9 +188,9 @@ void ModelParser::parse_pairs(LennardJonesModel& model) const {
                                                 model.species[a].name, model.species[b].name));
 }
 
-LennardJonesModel ModelParser::parse_lennard_jones(const std::string& name) const {
+PairModel ModelParser::parse_lennard_jones(const std::string& name) const {
   allow_keys(root_, {"kind", "name", "cutoff", "truncation", "images", "species", "pair"});
-  LennardJonesModel model;
+  PairModel model;
   model.name = name;
   if (const toml::node* node = root_.get("cutoff")) model.cutoff = number(*node, "cutoff", positive);
   if (const toml::node* node = root_.get("truncation")) {
@@ -385,7 +385,7 @@ std::string section(const Species& species) {
   return fmt::format("\n[[species]]\nname = {}\nmass = {}\nfraction = {}\n", quoted(species.name), species.mass, species.fraction);
 }
 
-std::string to_toml(const LennardJonesModel& model) {
+std::string to_toml(const PairModel& model) {
   std::string text = header(model, "lennard-jones");
   text += fmt::format("cutoff = {}\ntruncation = \"{}\"\nimages = \"{}\"\n", model.cutoff, to_string(model.truncation),
                       to_string(model.images));

@@ -9,7 +9,7 @@ namespace lanescape {
 
 // A mixture as a TOML file (docs/FORMATS.md). Whatever is unknown, missing, given twice or out of range throws
 // Error(bad_input) with file and line. Left out: name is the file's stem, mass is 1, cutoff, truncation and images are
-// LennardJonesModel's; fractions are equal and come for all species or none.
+// PairModel's; fractions are equal and come for all species or none.
 Model read_model_file(const std::filesystem::path& path);
 
 // Writes what read_model_file reads back as the same model, bit for bit; a model it would refuse throws Error(bad_input).

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "dispatch/isa.hpp"
-#include "interaction/hard_sphere.hpp"
+#include "interaction/sphere/hard_sphere.hpp"
 #include "landscape/hard_landscape.hpp"
 
 namespace lanescape {

@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "landscape/lennard_jones_landscape.hpp"
+#include "landscape/pair_landscape.hpp"
 #include "landscape/state_mixture_landscape.hpp"
 
 namespace lanescape {
 
 std::unique_ptr<SoftLandscape> make_landscape(const Model& model, const Box& box, const ParticleLayout& layout, Isa isa,
                                               const PairSearchOptions& options) {
-  if (const auto* lennard_jones = std::get_if<LennardJonesModel>(&model))
-    return std::make_unique<LennardJonesLandscape>(*lennard_jones, box, layout, isa, options);
+  if (const auto* lennard_jones = std::get_if<PairModel>(&model))
+    return std::make_unique<PairLandscape>(*lennard_jones, box, layout, isa, options);
   const auto* states = std::get_if<StateMixtureModel>(&model);
   if (states == nullptr)
     throw_bad_input(fmt::format("model {} has no soft landscape: its spheres are hard", mixture_of(model).name));

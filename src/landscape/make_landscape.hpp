@@ -4,7 +4,7 @@
 
 #include "configuration/model.hpp"
 #include "dispatch/isa.hpp"
-#include "interaction/lennard_jones.hpp"
+#include "interaction/pair/pair_interaction.hpp"
 #include "landscape/soft_landscape.hpp"
 
 namespace lanescape {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dispatch/isa.hpp"
-#include "interaction/state_mixture.hpp"
+#include "interaction/state/state_mixture.hpp"
 #include "landscape/soft_landscape.hpp"
 
 namespace lanescape {

@@ -10,7 +10,7 @@
 
 #include "core/error.hpp"
 #include "dispatch/isa.hpp"
-#include "interaction/probe_field.hpp"
+#include "interaction/pair/probe_field.hpp"
 
 namespace lanescape {
 namespace {
@@ -59,7 +59,7 @@ struct RowSums {
 
 class Densification {
  public:
-  Densification(const LennardJonesModel& model, const DensificationOptions& options, Isa isa, DensificationState& state,
+  Densification(const PairModel& model, const DensificationOptions& options, Isa isa, DensificationState& state,
                 std::size_t particles_at_start)
       : model_(&model),
         options_(&options),
@@ -139,7 +139,7 @@ class Densification {
     return true;
   }
 
-  const LennardJonesModel* model_;
+  const PairModel* model_;
   const DensificationOptions* options_;
   Isa isa_;
   DensificationState* state_;
@@ -189,8 +189,8 @@ void DensificationOptions::check(const FluidState& start) const {
   insertion.check(box);
 }
 
-DensificationResult run_densification(const LennardJonesModel& model, const FluidState& start, const DensificationOptions& options,
-                                      Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor) {
+DensificationResult run_densification(const PairModel& model, const FluidState& start, const DensificationOptions& options, Isa isa,
+                                      const CheckpointOptions& checkpoint, RunMonitor& monitor) {
   const auto file = checkpoint.folder / "densification.h5";
   options.check(start);
   DensificationState state{.fluid = start, .history = {}, .record = {}};

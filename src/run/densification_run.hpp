@@ -51,7 +51,7 @@ struct DensificationResult {
 };
 
 // `start`: a lattice will do. Ends early at the first insertion that finds no place.
-DensificationResult run_densification(const LennardJonesModel& model, const FluidState& start, const DensificationOptions& options,
-                                      Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor);
+DensificationResult run_densification(const PairModel& model, const FluidState& start, const DensificationOptions& options, Isa isa,
+                                      const CheckpointOptions& checkpoint, RunMonitor& monitor);
 
 }  // namespace lanescape

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "interaction/hard_sphere.hpp"
-#include "interaction/lennard_jones.hpp"
-#include "landscape/lennard_jones_landscape.hpp"
+#include "interaction/pair/pair_interaction.hpp"
+#include "interaction/sphere/hard_sphere.hpp"
+#include "landscape/pair_landscape.hpp"
 
 namespace lanescape {
 namespace {
@@ -81,8 +81,8 @@ class SoftSource {
  public:
   static constexpr std::uint64_t records_per_virial = 10;
 
-  SoftSource(const LennardJonesModel& model, const ParticleLayout& layout, const Configuration& start,
-             const DiffusionRunOptions& options, Isa isa)
+  SoftSource(const PairModel& model, const ParticleLayout& layout, const Configuration& start, const DiffusionRunOptions& options,
+             Isa isa)
       : layout_(&layout),
         options_(&options),
         volume_(start.box.volume()),
@@ -135,7 +135,7 @@ class SoftSource {
   const ParticleLayout* layout_;
   const DiffusionRunOptions* options_;
   double volume_;
-  LennardJonesLandscape landscape_;
+  PairLandscape landscape_;
   EndPointGenerator generator_;
   AlignedArray gradient_;
   std::uint64_t steps_per_record_, recorded_ = 0, samples_ = 0;
@@ -253,7 +253,7 @@ DiffusionRunResult run_diffusion(const Model& model, const Configuration& start,
   if (std::holds_alternative<StateMixtureModel>(model))
     throw_bad_input(
         fmt::format("diffusion of model {} is not there yet: Lennard-Jones mixtures and hard spheres are", mixture_of(model).name));
-  const auto& soft = std::get<LennardJonesModel>(model);
+  const auto& soft = std::get<PairModel>(model);
   check_separations(start, soft);
   const double steps = options.window.interval / options.equilibration.time_step;
   if (!(steps >= 0.999 && std::fabs(steps - std::round(steps)) < 1e-6 * steps))

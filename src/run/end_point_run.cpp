@@ -5,8 +5,8 @@
 #include <numeric>
 #include <string_view>
 
-#include "interaction/hard_sphere.hpp"
-#include "interaction/state_mixture.hpp"
+#include "interaction/sphere/hard_sphere.hpp"
+#include "interaction/state/state_mixture.hpp"
 #include "landscape/make_landscape.hpp"
 
 namespace lanescape {

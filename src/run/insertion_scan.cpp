@@ -11,8 +11,8 @@
 #include "core/error.hpp"
 #include "insertion/holes.hpp"
 #include "insertion/search.hpp"
-#include "interaction/lennard_jones.hpp"
-#include "interaction/probe_field.hpp"
+#include "interaction/pair/pair_interaction.hpp"
+#include "interaction/pair/probe_field.hpp"
 
 namespace lanescape {
 namespace {
@@ -83,7 +83,7 @@ struct Samples {
 
 class StateScan {
  public:
-  StateScan(const LennardJonesModel& model, const InsertionScanOptions& options, Isa isa, std::size_t which)
+  StateScan(const PairModel& model, const InsertionScanOptions& options, Isa isa, std::size_t which)
       : model_(&model), options_(&options), isa_(isa), at_(options.states[which]), holes_(options.iso_energies.size()) {
     for (const InsertionMethod method : options.methods)
       for (const double tolerance : options.tolerances)
@@ -206,7 +206,7 @@ class StateScan {
     }
   }
 
-  const LennardJonesModel* model_;
+  const PairModel* model_;
   const InsertionScanOptions* options_;
   Isa isa_;
   InsertionScanOptions::State at_;
@@ -236,7 +236,7 @@ InsertionScanResult result_of(const ScanState& state) {
 
 }  // namespace
 
-void InsertionScanOptions::check(const LennardJonesModel& model) const {
+void InsertionScanOptions::check(const PairModel& model) const {
   const auto at_least_one = [](const char* what, std::uint64_t value) {
     if (value == 0) throw_bad_input(fmt::format("{} must be at least 1", what));
   };
@@ -264,7 +264,7 @@ void InsertionScanOptions::check(const LennardJonesModel& model) const {
     }
 }
 
-InsertionScanResult run_insertion_scan(const LennardJonesModel& model, const InsertionScanOptions& options, Isa isa,
+InsertionScanResult run_insertion_scan(const PairModel& model, const InsertionScanOptions& options, Isa isa,
                                        const CheckpointOptions& checkpoint, RunMonitor& monitor) {
   options.check(model);
   const auto file = checkpoint.folder / "scan.h5";

@@ -43,7 +43,7 @@ struct InsertionScanOptions {
   int threads = 1;
 
   // Throws Error(bad_input) naming what is out of range.
-  void check(const LennardJonesModel& model) const;
+  void check(const PairModel& model) const;
 };
 
 struct ScanCostRow {
@@ -86,7 +86,7 @@ struct InsertionScanResult {
   double seconds = 0.0;
 };
 
-InsertionScanResult run_insertion_scan(const LennardJonesModel& model, const InsertionScanOptions& options, Isa isa,
+InsertionScanResult run_insertion_scan(const PairModel& model, const InsertionScanOptions& options, Isa isa,
                                        const CheckpointOptions& checkpoint, RunMonitor& monitor);
 
 }  // namespace lanescape

@@ -25,7 +25,7 @@ void FluidState::exchange(Archive& archive) {
   configuration.species.assign(species.begin(), species.end());
 }
 
-MovingFluid::MovingFluid(const LennardJonesModel& model, const FluidState& state, double time_step, Isa isa, int threads)
+MovingFluid::MovingFluid(const PairModel& model, const FluidState& state, double time_step, Isa isa, int threads)
     : start_(state.configuration),
       layout_(ParticleLayout::in_space_order(start_, model.species.size())),
       landscape_(model, start_.box, layout_, isa, {.threads = threads}),
@@ -46,12 +46,11 @@ FluidState MovingFluid::state() const {
 }
 
 MovingFluid::Potential MovingFluid::potential() {
-  const LennardJonesLandscape::EnergyAndVirial sums = landscape_.energy_and_virial(verlet_.position(), gradient_);
+  const PairLandscape::EnergyAndVirial sums = landscape_.energy_and_virial(verlet_.position(), gradient_);
   return {sums.energy, (2.0 * kinetic_energy() + sums.virial) / (3.0 * start_.box.volume())};
 }
 
-FluidState fluid_on_lattice(const LennardJonesModel& model, std::size_t particles, double density, double temperature,
-                            std::uint64_t seed) {
+FluidState fluid_on_lattice(const PairModel& model, std::size_t particles, double density, double temperature, std::uint64_t seed) {
   FluidState state{fcc_start(model, particles, density, seed), {}};
   const CounterRandom random(seed, RandomStream::velocities);
   for (std::size_t i = 0; i < state.configuration.size(); ++i) {

@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "configuration/configuration.hpp"
-#include "configuration/lennard_jones_model.hpp"
+#include "configuration/pair_model.hpp"
 #include "configuration/particle_layout.hpp"
 #include "core/aligned_array.hpp"
 #include "core/archive.hpp"
 #include "dispatch/isa.hpp"
 #include "dynamics/velocity_verlet.hpp"
-#include "landscape/lennard_jones_landscape.hpp"
+#include "landscape/pair_landscape.hpp"
 
 namespace lanescape {
 
@@ -28,7 +28,7 @@ struct FluidState {
 // Molecular dynamics of a soft fluid from such a state at constant energy. Its bits depend on the state alone.
 class MovingFluid {
  public:
-  MovingFluid(const LennardJonesModel& model, const FluidState& state, double time_step, Isa isa, int threads);
+  MovingFluid(const PairModel& model, const FluidState& state, double time_step, Isa isa, int threads);
   MovingFluid(const MovingFluid&) = delete;
   MovingFluid& operator=(const MovingFluid&) = delete;
 
@@ -47,14 +47,13 @@ class MovingFluid {
  private:
   Configuration start_;
   ParticleLayout layout_;
-  LennardJonesLandscape landscape_;
+  PairLandscape landscape_;
   VelocityVerlet verlet_;
   AlignedArray gradient_;
 };
 
 // On a lattice of this density, with Maxwellian velocities.
-FluidState fluid_on_lattice(const LennardJonesModel& model, std::size_t particles, double density, double temperature,
-                            std::uint64_t seed);
+FluidState fluid_on_lattice(const PairModel& model, std::size_t particles, double density, double temperature, std::uint64_t seed);
 
 // Runs with the temperature put right every 50 steps in the first half, and left alone in the second.
 void equilibrate(MovingFluid& fluid, double temperature, std::uint64_t steps);

@@ -10,8 +10,8 @@
 #include <memory>
 
 #include "core/error.hpp"
-#include "interaction/hard_sphere.hpp"
-#include "interaction/state_mixture.hpp"
+#include "interaction/sphere/hard_sphere.hpp"
+#include "interaction/state/state_mixture.hpp"
 #include "landscape/hard_sphere_landscape.hpp"
 #include "landscape/kinematic_landscape.hpp"
 #include "landscape/make_landscape.hpp"

@@ -12,7 +12,7 @@
 #include "core/decimated_trace.hpp"
 #include "core/run_monitor.hpp"
 #include "dispatch/isa.hpp"
-#include "interaction/lennard_jones.hpp"
+#include "interaction/pair/pair_interaction.hpp"
 #include "path/finder.hpp"
 #include "run/checkpoint.hpp"
 #include "run/end_point_run.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/archive.hpp"
-#include "interaction/hard_sphere.hpp"
+#include "interaction/sphere/hard_sphere.hpp"
 
 namespace lanescape {
 

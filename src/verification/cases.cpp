@@ -80,8 +80,8 @@ Configuration pair_at(const Point& first, const Point& separation, const Box& bo
 Point along_diagonal(double r) { return {r * 2.0 / 7.0, r * 3.0 / 7.0, r * 6.0 / 7.0}; }
 
 // Three species of unequal sizes.
-LennardJonesModel ternary() {
-  LennardJonesModel model;
+PairModel ternary() {
+  PairModel model;
   model.name = "ternary";
   model.species = {{"Ar", 1.0, 0.5}, {"Kr", 2.0, 0.3}, {"Xe", 3.0, 0.2}};
   model.epsilon = {1.0, 1.2, 0.9, 1.2, 1.5, 0.7, 0.9, 0.7, 0.5};
@@ -89,13 +89,13 @@ LennardJonesModel ternary() {
   return model;
 }
 
-LennardJonesModel with(LennardJonesModel model, ImageRule images, Truncation truncation) {
+PairModel with(PairModel model, ImageRule images, Truncation truncation) {
   model.images = images;
   model.truncation = truncation;
   return model;
 }
 
-LennardJonesModel with_cutoff(LennardJonesModel model, double cutoff) {
+PairModel with_cutoff(PairModel model, double cutoff) {
   model.cutoff = cutoff;
   return model;
 }
@@ -105,7 +105,7 @@ const std::array<Truncation, 3> truncations = {Truncation::shifted, Truncation::
 
 // Numbers of particles that leave every kind of remainder in vectors of 2, 4 and 8 lanes and in tiles of 4 rows; at density
 // 1.2 they also run through the three image searches.
-void add_sizes(std::vector<LennardJonesCase>& cases) {
+void add_sizes(std::vector<PairCase>& cases) {
   for (const auto& model : {lennard_jones(), kob_andersen()})
     for (const std::size_t n : {0U, 1U, 2U, 3U, 7U, 8U, 9U, 31U, 107U, 108U, 256U, 257U}) {
       const Box box = cube(std::cbrt(static_cast<double>(std::max<std::size_t>(n, 1)) / 1.2));
@@ -118,7 +118,7 @@ void add_sizes(std::vector<LennardJonesCase>& cases) {
 }
 
 // Boxes that are no cubes, one for each image search at the cutoff 2.5; and boxes much smaller than the cutoff.
-void add_boxes(std::vector<LennardJonesCase>& cases) {
+void add_boxes(std::vector<PairCase>& cases) {
   const std::vector<std::pair<const char*, Box>> boxes = {{"orthorhombic nearest", {{6.0, 5.5, 7.2}}},
                                                           {"orthorhombic two nearest", {{4.0, 4.4, 5.2}}},
                                                           {"orthorhombic lattice", {{2.2, 3.1, 4.7}}},
@@ -139,7 +139,7 @@ void add_boxes(std::vector<LennardJonesCase>& cases) {
 
 // A pair on either side of the cutoff, cut without a shift so that a wrong decision shows. Once for each way through a
 // kernel: the nearest image, the next one and the lattice, in a cube and in another box.
-void add_cutoff_edges(std::vector<LennardJonesCase>& cases) {
+void add_cutoff_edges(std::vector<PairCase>& cases) {
   struct Edge {
     const char* name;
     Box box;
@@ -157,7 +157,7 @@ void add_cutoff_edges(std::vector<LennardJonesCase>& cases) {
     }
 }
 
-void add_pairs(std::vector<LennardJonesCase>& cases) {
+void add_pairs(std::vector<PairCase>& cases) {
   for (const auto& [shape, box] : {std::pair{"cube", cube(9.0)}, std::pair{"box", Box{{9.0, 8.0, 7.5}}}}) {
     cases.push_back({fmt::format("touching pair ({})", shape), lennard_jones(), pair_at({1.0, 2.0, 3.0}, {0.0, 1.0, 0.0}, box)});
     cases.push_back(
@@ -172,7 +172,7 @@ void add_pairs(std::vector<LennardJonesCase>& cases) {
 }
 
 // Three species of which one has no particles: at the beginning, in the middle or at the end of the blocks.
-void add_empty_species(std::vector<LennardJonesCase>& cases) {
+void add_empty_species(std::vector<PairCase>& cases) {
   for (int empty = 0; empty < 3; ++empty)
     for (const double length : {2.3, 3.2, 4.6}) {
       Configuration configuration = filled(cube(length), 1);
@@ -185,8 +185,8 @@ void add_empty_species(std::vector<LennardJonesCase>& cases) {
 
 }  // namespace
 
-std::vector<LennardJonesCase> lennard_jones_cases() {
-  std::vector<LennardJonesCase> cases;
+std::vector<PairCase> pair_cases() {
+  std::vector<PairCase> cases;
   add_sizes(cases);
   add_boxes(cases);
   add_cutoff_edges(cases);

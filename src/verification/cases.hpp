@@ -4,19 +4,19 @@
 #include <vector>
 
 #include "configuration/configuration.hpp"
-#include "configuration/lennard_jones_model.hpp"
+#include "configuration/pair_model.hpp"
 
 namespace lanescape {
 
 // One configuration to check a kernel on, with the model it is evaluated by. No two particles are nearer than 0.7 sigma.
-struct LennardJonesCase {
+struct PairCase {
   std::string name;
-  LennardJonesModel model;
+  PairModel model;
   Configuration configuration;
 };
 
 // The cases that tests, benchmarks and the program share, always the same: every combination of size (empty, one, odd, lane
 // tails), image rule, truncation and mixture at density 1.2, and boxes and pairs on the edges of the algorithm.
-std::vector<LennardJonesCase> lennard_jones_cases();
+std::vector<PairCase> pair_cases();
 
 }  // namespace lanescape

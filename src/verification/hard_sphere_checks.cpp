@@ -15,7 +15,7 @@
 #include "core/aligned_array.hpp"
 #include "core/random.hpp"
 #include "dynamics/event_calendar.hpp"
-#include "interaction/hard_sphere.hpp"
+#include "interaction/sphere/hard_sphere.hpp"
 #include "reference/hard_sphere.hpp"
 #include "verification/check.hpp"
 

@@ -13,7 +13,7 @@
 #include "configuration/particle_layout.hpp"
 #include "core/aligned_array.hpp"
 #include "core/random.hpp"
-#include "interaction/lennard_jones.hpp"
+#include "interaction/pair/pair_interaction.hpp"
 #include "verification/check.hpp"
 #include "verification/hard_sphere_cases.hpp"
 #include "verification/hard_sphere_checks.hpp"
@@ -92,8 +92,8 @@ std::string describe(const Deviation& d) {
 namespace {
 
 // The kernels of one way of finding pairs; `prefix` begins their names.
-std::vector<Deviation> verify_search(const kernels::KernelTable& table, const std::vector<LennardJonesCase>& cases,
-                                     PairSearch search, const std::string& prefix) {
+std::vector<Deviation> verify_search(const kernels::KernelTable& table, const std::vector<PairCase>& cases, PairSearch search,
+                                     const std::string& prefix) {
   const std::string with_energy = prefix + "gradient", with_tensor = prefix + "stress";
   Check energy(table, prefix + "energy", tolerance::lj_sums);
   Check gradient_energy(table, with_energy + " energy", tolerance::lj_sums),
@@ -111,7 +111,7 @@ std::vector<Deviation> verify_search(const kernels::KernelTable& table, const st
     const reference::Evaluation expected = evaluate_reference(model, configuration);
     const ParticleLayout layout(configuration.species, model.species.size());
     const AlignedArray positions = layout.to_slots(configuration.positions);
-    LennardJones interaction(model, configuration.box, layout, table, {.search = search});
+    PairInteraction interaction(model, configuration.box, layout, table, {.search = search});
     // Whatever a kernel does not write must show.
     AlignedArray g(layout.dimension(), std::numeric_limits<double>::quiet_NaN()), g_stress = g, g_only = g;
     const double e = interaction.energy(positions);
@@ -142,11 +142,11 @@ std::vector<Deviation> verify_search(const kernels::KernelTable& table, const st
 
 }  // namespace
 
-std::vector<Deviation> verify_lennard_jones(const kernels::KernelTable& table, const std::vector<LennardJonesCase>& cases) {
+std::vector<Deviation> verify_lennard_jones(const kernels::KernelTable& table, const std::vector<PairCase>& cases) {
   return verify_search(table, cases, PairSearch::all_pairs, "lj_");
 }
 
-std::vector<Deviation> verify_lennard_jones_lists(const kernels::KernelTable& table, const std::vector<LennardJonesCase>& cases) {
+std::vector<Deviation> verify_lennard_jones_lists(const kernels::KernelTable& table, const std::vector<PairCase>& cases) {
   return verify_search(table, cases, PairSearch::list, "lj_list_");
 }
 
@@ -154,10 +154,10 @@ namespace {
 
 // Whether some pair is so near to the cutoff that in single precision it may be on the other side. Untruncated, all energies at a
 // cutoff beyond the minimum have one sign.
-bool has_pair_at_cutoff(const LennardJonesModel& model, const Configuration& configuration) {
-  LennardJonesModel nearer = model;
+bool has_pair_at_cutoff(const PairModel& model, const Configuration& configuration) {
+  PairModel nearer = model;
   nearer.truncation = Truncation::plain;
-  LennardJonesModel further = nearer;
+  PairModel further = nearer;
   nearer.cutoff = model.cutoff * (1.0 - tolerance::lj_mixed_cutoff);
   further.cutoff = model.cutoff * (1.0 + tolerance::lj_mixed_cutoff);
   return evaluate_reference(nearer, configuration).energy != evaluate_reference(further, configuration).energy;
@@ -165,7 +165,7 @@ bool has_pair_at_cutoff(const LennardJonesModel& model, const Configuration& con
 
 }  // namespace
 
-std::vector<Deviation> verify_lennard_jones_mixed(const kernels::KernelTable& table, const std::vector<LennardJonesCase>& cases) {
+std::vector<Deviation> verify_lennard_jones_mixed(const kernels::KernelTable& table, const std::vector<PairCase>& cases) {
   Check energy(table, "lj_list_energy_mixed", tolerance::lj_mixed_sums),
       gradient_energy(table, "lj_list_gradient_mixed energy", tolerance::lj_mixed_sums),
       gradient(table, "lj_list_gradient_mixed gradient", tolerance::lj_mixed_gradient),
@@ -177,7 +177,7 @@ std::vector<Deviation> verify_lennard_jones_mixed(const kernels::KernelTable& ta
     const reference::Evaluation expected = evaluate_reference(model, configuration);
     const ParticleLayout layout(configuration.species, model.species.size());
     const AlignedArray positions = layout.to_slots(configuration.positions);
-    LennardJones interaction(model, configuration.box, layout, table, {.precision = Precision::mixed});
+    PairInteraction interaction(model, configuration.box, layout, table, {.precision = Precision::mixed});
     AlignedArray g(layout.dimension(), std::numeric_limits<double>::quiet_NaN()), g_only = g;
     const double e = interaction.energy(positions);
     interaction.gradient(positions, g_only);
@@ -274,7 +274,7 @@ std::vector<Deviation> verify_vector_algebra(const kernels::KernelTable& table) 
           lengths.deviation};
 }
 
-std::vector<Deviation> verify_kernels(Isa isa, const std::vector<LennardJonesCase>& cases) {
+std::vector<Deviation> verify_kernels(Isa isa, const std::vector<PairCase>& cases) {
   const kernels::KernelTable& table = kernel_table(isa);
   std::vector<Deviation> deviations = verify_lennard_jones(table, cases);
   for (auto& deviation : verify_lennard_jones_lists(table, cases)) deviations.push_back(std::move(deviation));

@@ -9,7 +9,7 @@
 
 namespace lanescape {
 
-// Tolerances, one per family of kernels: four to five times the worst deviation measured over lennard_jones_cases() on every
+// Tolerances, one per family of kernels: four to five times the worst deviation measured over pair_cases() on every
 // instruction set with GCC 12 and Clang 19, which leaves room for another compiler's order of a sum and none for a wrong term.
 namespace tolerance {
 
@@ -73,14 +73,14 @@ std::string describe(const Deviation& deviation);
 
 // The Lennard-Jones kernels of a table against the scalar reference: over all pairs, and over neighbour lists where a case allows
 // one.
-std::vector<Deviation> verify_lennard_jones(const kernels::KernelTable& table, const std::vector<LennardJonesCase>& cases);
-std::vector<Deviation> verify_lennard_jones_lists(const kernels::KernelTable& table, const std::vector<LennardJonesCase>& cases);
+std::vector<Deviation> verify_lennard_jones(const kernels::KernelTable& table, const std::vector<PairCase>& cases);
+std::vector<Deviation> verify_lennard_jones_lists(const kernels::KernelTable& table, const std::vector<PairCase>& cases);
 // Those in mixed precision, but for cases in which a pair is at the cutoff.
-std::vector<Deviation> verify_lennard_jones_mixed(const kernels::KernelTable& table, const std::vector<LennardJonesCase>& cases);
+std::vector<Deviation> verify_lennard_jones_mixed(const kernels::KernelTable& table, const std::vector<PairCase>& cases);
 // The vector algebra of a table against loops in long double, at lengths that leave every remainder.
 std::vector<Deviation> verify_vector_algebra(const kernels::KernelTable& table);
 // These and those of hard_sphere_checks.hpp and probe_checks.hpp. Throws Error(bad_input) where the instruction set is not
 // available.
-std::vector<Deviation> verify_kernels(Isa isa, const std::vector<LennardJonesCase>& cases);
+std::vector<Deviation> verify_kernels(Isa isa, const std::vector<PairCase>& cases);
 
 }  // namespace lanescape

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/random.hpp"
-#include "interaction/probe_field.hpp"
+#include "interaction/pair/probe_field.hpp"
 #include "verification/check.hpp"
 #include "verification/reference_bridge.hpp"
 
@@ -15,7 +15,7 @@ namespace {
 // Few of the large cases: the reference looks at every particle.
 constexpr std::size_t probes_per_case = 12;
 
-bool fits_probe(const LennardJonesModel& model, const Box& box) {
+bool fits_probe(const PairModel& model, const Box& box) {
   const double cutoff = model.cutoff * *std::max_element(model.sigma.begin(), model.sigma.end());
   return model.images == ImageRule::all || 2.0 * cutoff <= box.shortest();
 }
@@ -29,7 +29,7 @@ Configuration without(const Configuration& all, std::size_t particle) {
 }
 
 // At how many of some random places the kernel and the reference differ. All are asked at once, and then what follows the first.
-double wrongly_clear(const LennardJonesModel& model, const Configuration& configuration, const kernels::KernelTable& table) {
+double wrongly_clear(const PairModel& model, const Configuration& configuration, const kernels::KernelTable& table) {
   constexpr std::size_t places = 40;
   constexpr double clear_energy = 60.0;
   const CounterRandom random(1, RandomStream::sites);
@@ -54,7 +54,7 @@ double wrongly_clear(const LennardJonesModel& model, const Configuration& config
 
 }  // namespace
 
-std::vector<Deviation> verify_probes(const kernels::KernelTable& table, const std::vector<LennardJonesCase>& cases) {
+std::vector<Deviation> verify_probes(const kernels::KernelTable& table, const std::vector<PairCase>& cases) {
   Check energy(table, "lj_probe energy", tolerance::lj_sums), gradient(table, "lj_probe gradient", tolerance::lj_gradient),
       energy_bits(table, "lj_probe, lj_probe_energies: same energy", tolerance::exact),
       clear(table, "lj_probe_first_clear", tolerance::exact);

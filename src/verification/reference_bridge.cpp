@@ -15,7 +15,7 @@ reference::Truncation translate(Truncation truncation) {
   return reference::Truncation::shifted;
 }
 
-reference::Mixture translate(const LennardJonesModel& model) {
+reference::Mixture translate(const PairModel& model) {
   reference::Mixture mixture{model.species.size(), model.epsilon, model.sigma, {}};
   for (const double sigma : model.sigma) mixture.cutoff.push_back(model.cutoff * sigma);
   return mixture;
@@ -23,13 +23,13 @@ reference::Mixture translate(const LennardJonesModel& model) {
 
 }  // namespace
 
-reference::Evaluation evaluate_reference(const LennardJonesModel& model, const Configuration& configuration) {
+reference::Evaluation evaluate_reference(const PairModel& model, const Configuration& configuration) {
   const auto images = model.images == ImageRule::all ? reference::ImageRule::all : reference::ImageRule::minimum;
   return reference::lennard_jones(configuration.positions, configuration.species, configuration.box.length, translate(model),
                                   images, translate(model.truncation));
 }
 
-reference::Probe probe_reference(const LennardJonesModel& model, const Configuration& fluid, const std::array<double, 3>& position,
+reference::Probe probe_reference(const PairModel& model, const Configuration& fluid, const std::array<double, 3>& position,
                                  int species) {
   return reference::probe(position, species, fluid.positions, fluid.species, fluid.box.length, translate(model),
                           translate(model.truncation));

@@ -5,8 +5,8 @@
 #include <limits>
 #include <memory>
 
-#include "interaction/local_density.hpp"
-#include "interaction/state_mixture.hpp"
+#include "interaction/state/local_density.hpp"
+#include "interaction/state/state_mixture.hpp"
 #include "verification/check.hpp"
 
 namespace lanescape {

@@ -13,7 +13,7 @@
 
 #include "dispatch/isa.hpp"
 #include "every_isa.hpp"
-#include "interaction/lennard_jones.hpp"
+#include "interaction/pair/pair_interaction.hpp"
 #include "verification/cases.hpp"
 #include "verification/junit.hpp"
 #include "verification/kernel_checks.hpp"
@@ -24,17 +24,17 @@ namespace {
 
 using kernels::KernelTable;
 using kernels::LjInput;
-using kernels::LjOutput;
+using kernels::PairOutput;
 
-const std::vector<LennardJonesCase>& every_case() {
-  static const std::vector<LennardJonesCase> cases = lennard_jones_cases();
+const std::vector<PairCase>& every_case() {
+  static const std::vector<PairCase> cases = pair_cases();
   return cases;
 }
 
-std::vector<LennardJonesCase> small_cases() {
-  std::vector<LennardJonesCase> cases;
+std::vector<PairCase> small_cases() {
+  std::vector<PairCase> cases;
   std::copy_if(every_case().begin(), every_case().end(), std::back_inserter(cases),
-               [](const LennardJonesCase& c) { return c.configuration.size() <= 31; });
+               [](const PairCase& c) { return c.configuration.size() <= 31; });
   return cases;
 }
 
@@ -43,7 +43,7 @@ using LennardJonesParity = testing::EveryIsa;
 INSTANTIATE_TEST_SUITE_P(EveryIsa, LennardJonesParity, testing::all_isas(), testing::isa_name);
 
 TEST_P(LennardJonesParity, KernelsAgreeWithTheReferenceOnEveryCase) {
-  for (const LennardJonesCase& one : every_case())
+  for (const PairCase& one : every_case())
     for (const Deviation& deviation : verify_lennard_jones(kernel_table(GetParam()), {one}))
       EXPECT_TRUE(deviation.passed()) << one.name << ": " << describe(deviation);
 }
@@ -56,7 +56,7 @@ TEST_P(LennardJonesParity, WorstDeviationsAreWithinTheDeclaredTolerances) {
 }
 
 TEST_P(LennardJonesParity, ListKernelsAgreeWithTheReferenceOnEveryCaseThatAllowsAList) {
-  for (const LennardJonesCase& one : every_case())
+  for (const PairCase& one : every_case())
     for (const Deviation& deviation : verify_lennard_jones_lists(kernel_table(GetParam()), {one}))
       EXPECT_TRUE(deviation.passed() || deviation.cases == 0) << one.name << ": " << describe(deviation);
   for (const Deviation& deviation : verify_lennard_jones_lists(kernel_table(GetParam()), every_case())) {
@@ -67,7 +67,7 @@ TEST_P(LennardJonesParity, ListKernelsAgreeWithTheReferenceOnEveryCaseThatAllows
 }
 
 TEST_P(LennardJonesParity, MixedPrecisionAgreesWithTheReferenceOnEveryCaseThatAllowsAListAndHasNoPairAtTheCutoff) {
-  for (const LennardJonesCase& one : every_case())
+  for (const PairCase& one : every_case())
     for (const Deviation& deviation : verify_lennard_jones_mixed(kernel_table(GetParam()), {one}))
       EXPECT_TRUE(deviation.passed() || deviation.cases == 0) << one.name << ": " << describe(deviation);
   for (const Deviation& deviation : verify_lennard_jones_mixed(kernel_table(GetParam()), every_case())) {
@@ -100,7 +100,7 @@ TEST_P(LennardJonesParity, RepeatedEvaluationsGiveTheSameBits) {
   for (const auto& [name, model, configuration] : every_case()) {
     const ParticleLayout layout(configuration.species, model.species.size());
     const AlignedArray positions = layout.to_slots(configuration.positions);
-    LennardJones interaction(model, configuration.box, layout, kernel_table(GetParam()));
+    PairInteraction interaction(model, configuration.box, layout, kernel_table(GetParam()));
     AlignedArray first(layout.dimension()), second(layout.dimension(), 1.0);
     const auto before = interaction.energy_and_gradient(positions, first);
     const auto after = interaction.energy_and_gradient(positions, second);
@@ -112,7 +112,7 @@ TEST_P(LennardJonesParity, RepeatedEvaluationsGiveTheSameBits) {
 
 TEST(LennardJonesCases, HaveNamesThatTellThemApart) {
   std::set<std::string> names;
-  for (const LennardJonesCase& one : every_case()) EXPECT_TRUE(names.insert(one.name).second) << one.name;
+  for (const PairCase& one : every_case()) EXPECT_TRUE(names.insert(one.name).second) << one.name;
 }
 
 TEST(LennardJonesCases, HaveNoPairsNearerThanTheirDescriptionSays) {
@@ -144,7 +144,7 @@ TEST(LennardJonesCases, CutoffEdgesAreDecidedAsTheirNamesSay) {
     const bool inside = name.starts_with("pair inside the cutoff"), outside = name.starts_with("pair outside the cutoff");
     if (!inside && !outside) continue;
     ++found;
-    LennardJonesModel slightly_smaller = model;
+    PairModel slightly_smaller = model;
     slightly_smaller.cutoff = model.cutoff * (1.0 - 3e-12);
     const double step =
         evaluate_reference(model, configuration).energy - evaluate_reference(slightly_smaller, configuration).energy;
@@ -167,30 +167,30 @@ double energy_without_shift(const LjInput& in) noexcept {
   changed.pairs = pairs.data();
   return right->lj_energy(changed);
 }
-void gradient_wrong_in_one_component(const LjInput& in, double* gradient, LjOutput& out) noexcept {
+void gradient_wrong_in_one_component(const LjInput& in, double* gradient, PairOutput& out) noexcept {
   right->lj_gradient(in, gradient, out);
   if (in.slots > 0) gradient[0] *= 1.0 + 1e-10;
 }
-void gradient_with_dirty_padding(const LjInput& in, double* gradient, LjOutput& out) noexcept {
+void gradient_with_dirty_padding(const LjInput& in, double* gradient, PairOutput& out) noexcept {
   right->lj_gradient(in, gradient, out);
   if (in.slots > 0) gradient[in.slots - 1] += 1e-300;
 }
-void gradient_leaving_the_last_pairs_out(const LjInput& in, double* gradient, LjOutput& out) noexcept {
+void gradient_leaving_the_last_pairs_out(const LjInput& in, double* gradient, PairOutput& out) noexcept {
   std::vector<kernels::SpeciesBlock> blocks(in.blocks, in.blocks + in.block_count);
   if (blocks[0].count > 1) --blocks[0].count;
   LjInput changed = in;
   changed.blocks = blocks.data();
   right->lj_gradient(changed, gradient, out);
 }
-void gradient_with_wrong_virial(const LjInput& in, double* gradient, LjOutput& out) noexcept {
+void gradient_with_wrong_virial(const LjInput& in, double* gradient, PairOutput& out) noexcept {
   right->lj_gradient(in, gradient, out);
   out.virial *= 1.0 - 1e-11;
 }
-void stress_with_swapped_shears(const LjInput& in, double* gradient, LjOutput& out) noexcept {
+void stress_with_swapped_shears(const LjInput& in, double* gradient, PairOutput& out) noexcept {
   right->lj_stress(in, gradient, out);
   std::swap(out.virial_tensor[3], out.virial_tensor[5]);
 }
-void stress_with_wrong_gradient(const LjInput& in, double* gradient, LjOutput& out) noexcept {
+void stress_with_wrong_gradient(const LjInput& in, double* gradient, PairOutput& out) noexcept {
   right->lj_stress(in, gradient, out);
   if (in.slots > 0) gradient[2 * in.slots] = -gradient[2 * in.slots];
 }
@@ -230,8 +230,8 @@ TEST(LennardJonesChecks, SeeASingleBitBetweenTheKernels) {
   KernelTable table = *right;
   table.lj_energy = energy_off_by_one_bit;
   // Where no pair is in range the energy is exactly zero, and one bit of it is no rounding error.
-  std::vector<LennardJonesCase> dense = small_cases();
-  std::erase_if(dense, [](const LennardJonesCase& c) { return c.configuration.size() < 8; });
+  std::vector<PairCase> dense = small_cases();
+  std::erase_if(dense, [](const PairCase& c) { return c.configuration.size() < 8; });
   std::vector<std::string> failed;
   for (const Deviation& deviation : verify_lennard_jones(table, dense))
     if (!deviation.passed()) failed.push_back(deviation.kernel);

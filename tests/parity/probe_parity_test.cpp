@@ -4,7 +4,7 @@
 
 #include "dispatch/isa.hpp"
 #include "every_isa.hpp"
-#include "interaction/probe_field.hpp"
+#include "interaction/pair/probe_field.hpp"
 #include "refusal.hpp"
 #include "verification/cases.hpp"
 #include "verification/probe_checks.hpp"
@@ -13,8 +13,8 @@
 namespace lanescape {
 namespace {
 
-const std::vector<LennardJonesCase>& every_case() {
-  static const std::vector<LennardJonesCase> cases = lennard_jones_cases();
+const std::vector<PairCase>& every_case() {
+  static const std::vector<PairCase> cases = pair_cases();
   return cases;
 }
 
@@ -38,7 +38,7 @@ Configuration large_fluid() {
 }
 
 TEST_P(ProbeParity, AFluidThatParticlesWerePutIntoAndTakenOutOfIsFeltAsItIs) {
-  LennardJonesModel model = kob_andersen();
+  PairModel model = kob_andersen();
   model.truncation = Truncation::tail;
   Configuration fluid = large_fluid();
   ASSERT_EQ(fluid.size(), 257U);
@@ -63,7 +63,7 @@ TEST_P(ProbeParity, AFluidThatParticlesWerePutIntoAndTakenOutOfIsFeltAsItIs) {
 
 TEST(ProbeField, RefusesWhatItCannotProbe) {
   const kernels::KernelTable& table = kernel_table(choose_isa("auto"));
-  LennardJonesModel model = lennard_jones();
+  PairModel model = lennard_jones();
   const Configuration fluid{{{4.0, 6.0, 6.0}}, {0}, {0.0, 0.0, 0.0}};
   EXPECT_EQ(testing::refusal([&] { ProbeField(model, fluid, 1, table); }),
             "species 1 of an inserted particle is not allowed: the model has 1");

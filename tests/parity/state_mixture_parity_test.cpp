@@ -64,11 +64,11 @@ void densities_without_a_row(const kernels::StateDensityInput& in, double* densi
   right->state_densities(in, densities);
   densities[0] *= 1.0 + 1e-11;
 }
-void gradient_with_half_the_slopes(const kernels::StateLjInput& in, double* g, double* slopes, kernels::LjOutput& out) noexcept {
+void gradient_with_half_the_slopes(const kernels::StateLjInput& in, double* g, double* slopes, kernels::PairOutput& out) noexcept {
   right->state_lj_gradient(in, g, slopes, out);
   for (std::size_t k = 0; k < in.list.row_count * in.probabilities.states; ++k) slopes[k] *= 0.5;
 }
-void density_gradient_of_one_end(const kernels::StateDensityForceInput& in, double* g, kernels::LjOutput& out) noexcept {
+void density_gradient_of_one_end(const kernels::StateDensityForceInput& in, double* g, kernels::PairOutput& out) noexcept {
   std::vector<double> none(in.list.species_count, 0.0);
   kernels::StateDensityForceInput changed = in;
   changed.filter_back = none.data();

@@ -44,7 +44,7 @@ void run_to_the_end(EndPointGenerator& generator) {
   while (!generator.ended()) generator.step();
 }
 
-std::vector<double> masses_of(const LennardJonesModel& model) {
+std::vector<double> masses_of(const PairModel& model) {
   std::vector<double> masses;
   for (const Species& s : model.species) masses.push_back(s.mass);
   return masses;

@@ -12,7 +12,7 @@
 #include "core/run_monitor.hpp"
 #include "dispatch/isa.hpp"
 #include "dynamics/hard_sphere_start.hpp"
-#include "interaction/hard_sphere.hpp"
+#include "interaction/sphere/hard_sphere.hpp"
 #include "reference/hard_sphere.hpp"
 
 namespace lanescape {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "configuration/lattice.hpp"
-#include "interaction/lennard_jones.hpp"
+#include "interaction/pair/pair_interaction.hpp"
 #include "io/hdf5_archive.hpp"
 #include "neighbour/neighbour_list.hpp"
 #include "path/finder.hpp"
@@ -25,11 +25,11 @@ namespace {
 constexpr std::size_t particles = 256;
 
 struct Liquid {
-  LennardJonesModel model = kob_andersen();
+  PairModel model = kob_andersen();
   Configuration configuration = fcc_start(model, particles, 1.2, 1);
   ParticleLayout layout{configuration.species, 2};
 
-  LennardJonesLandscape landscape(int threads = 1, PairSearch search = PairSearch::automatic) const {
+  PairLandscape landscape(int threads = 1, PairSearch search = PairSearch::automatic) const {
     return {model, configuration.box, layout, testing::active_isa(), {.search = search, .threads = threads}};
   }
   VelocityVerlet moving(SoftLandscape& landscape, double temperature = 3.0) const {
@@ -117,14 +117,14 @@ TEST(LargeSystems, DynamicsResumedFromAnArchiveGoesOnWithTheSameBits) {
 
 // The errors that docs/ARCHITECTURE.md states.
 TEST(LargeSystems, InMixedPrecisionALiquidHasNearlyItsEnergyAndForces) {
-  const LennardJonesModel model = kob_andersen();
+  const PairModel model = kob_andersen();
   const Configuration start = fcc_start(model, 4000, 1.2, 1);
   const ParticleLayout layout(start.species, 2);
-  LennardJonesLandscape landscape(model, start.box, layout, testing::active_isa());
+  PairLandscape landscape(model, start.box, layout, testing::active_isa());
   VelocityVerlet verlet(landscape, model, layout, layout.to_slots(start.positions), 2e-3);
   verlet.draw_velocities(4.0, 1);
   run(verlet, 300);
-  LennardJones exact(model, start.box, layout, kernel_table(testing::active_isa())),
+  PairInteraction exact(model, start.box, layout, kernel_table(testing::active_isa())),
       mixed(model, start.box, layout, kernel_table(testing::active_isa()), {.precision = Precision::mixed});
   AlignedArray exact_gradient(layout.dimension(), 0.0), mixed_gradient = exact_gradient;
   const auto expected = exact.energy_and_gradient(verlet.position(), exact_gradient);
@@ -143,11 +143,11 @@ TEST(LargeSystems, InMixedPrecisionALiquidHasNearlyItsEnergyAndForces) {
 }
 
 TEST(LargeSystems, DynamicsInMixedPrecisionConservesEnergyAsInDouble) {
-  const LennardJonesModel model = kob_andersen();
+  const PairModel model = kob_andersen();
   const Configuration start = fcc_start(model, 500, 1.2, 1);
   const ParticleLayout layout(start.species, 2);
   const auto drift_in = [&](Precision precision) {
-    LennardJonesLandscape landscape(model, start.box, layout, testing::active_isa(), {.precision = precision});
+    PairLandscape landscape(model, start.box, layout, testing::active_isa(), {.precision = precision});
     VelocityVerlet verlet(landscape, model, layout, layout.to_slots(start.positions), 1e-3);
     verlet.draw_velocities(3.0, 1);
     run(verlet, 500);
@@ -169,8 +169,8 @@ TEST(LargeSystems, DynamicsInMixedPrecisionConservesEnergyAsInDouble) {
 TEST(LargeSystems, DynamicsInMixedPrecisionResumesWithTheSameBitsOnAnyNumberOfThreads) {
   const Liquid liquid;
   const auto in_mixed = [&](int threads) {
-    return LennardJonesLandscape(liquid.model, liquid.configuration.box, liquid.layout, testing::active_isa(),
-                                 {.threads = threads, .precision = Precision::mixed});
+    return PairLandscape(liquid.model, liquid.configuration.box, liquid.layout, testing::active_isa(),
+                         {.threads = threads, .precision = Precision::mixed});
   };
   auto one = in_mixed(1), first = in_mixed(1), second = in_mixed(2);
   VelocityVerlet whole = liquid.moving(one), begun = liquid.moving(first), resumed = liquid.moving(second, 1.0);
@@ -201,7 +201,7 @@ Ends ends(const Liquid& liquid) {
 }
 
 template <class Stepper>
-PathFinder<Stepper> finder_on(LennardJonesLandscape& landscape, const Ends& ends) {
+PathFinder<Stepper> finder_on(PairLandscape& landscape, const Ends& ends) {
   // Steps long enough for the list to be renewed many times.
   return {landscape.algebra(), Stepper(landscape, ends.energy, {.direct_step = 0.03}), ends.start, ends.goal, particles,
           FinderOptions{}};

@@ -250,7 +250,7 @@ TEST(PathFinder, FramesAreEquallySpacedInTheDistanceToTheGoal) {
 }
 
 // Two configurations of one trajectory under the model's own masses, so that the centre of mass rests.
-ConfigurationPair pair_of(const LennardJonesModel& model) {
+ConfigurationPair pair_of(const PairModel& model) {
   System system(model, testing::molten_kob_andersen());
   VelocityVerlet verlet = system.moving(2.0);
   for (int k = 0; k < 1000; ++k) verlet.step();
@@ -260,19 +260,19 @@ ConfigurationPair pair_of(const LennardJonesModel& model) {
   return pair;
 }
 
-PathResult contour_path(const LennardJonesModel& model, const ConfigurationPair& pair, std::size_t frames = 500) {
+PathResult contour_path(const PairModel& model, const ConfigurationPair& pair, std::size_t frames = 500) {
   PathRunOptions options;
   options.finder.frames = frames;
   SilentMonitor monitor;
   return run_paths(model, {pair}, options, testing::active_isa(), {}, monitor).front();
 }
 
-double mass_of(const LennardJonesModel& model, const Configuration& c, std::size_t particle) {
+double mass_of(const PairModel& model, const Configuration& c, std::size_t particle) {
   return model.species[static_cast<std::size_t>(c.species[particle])].mass;
 }
 
 // sqrt(sum m dr^2 / <m>)
-double kinematic_distance(const LennardJonesModel& model, const Configuration& a, const Configuration& b) {
+double kinematic_distance(const PairModel& model, const Configuration& a, const Configuration& b) {
   double sum = 0.0, mass = 0.0;
   for (std::size_t k = 0; k < a.positions.size(); ++k) {
     const double d = b.positions[k] - a.positions[k];
@@ -283,7 +283,7 @@ double kinematic_distance(const LennardJonesModel& model, const Configuration& a
 }
 
 // How far the centre gets from where it starts, particles weighted with the masses of `model`.
-double drift(const LennardJonesModel& model, const std::vector<Configuration>& frames) {
+double drift(const PairModel& model, const std::vector<Configuration>& frames) {
   double farthest = 0.0;
   for (const Configuration& frame : frames) {
     std::array<double, 3> moved{};
@@ -316,7 +316,7 @@ TEST(KinematicMetric, TheCentreOfMassDoesNotDriftAlongAPath) {
 }
 
 TEST(KinematicMetric, ACommonFactorOfAllMassesChangesNothing) {
-  const auto equal = [&](const LennardJonesModel& a, const LennardJonesModel& b) {
+  const auto equal = [&](const PairModel& a, const PairModel& b) {
     const auto pair = pair_of(a);
     const PathResult one = contour_path(a, pair), other = contour_path(b, pair);
     EXPECT_EQ(one.outcome, Outcome::reached);

@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "configuration/configuration.hpp"
-#include "configuration/lennard_jones_model.hpp"
+#include "configuration/pair_model.hpp"
 #include "configuration/particle_layout.hpp"
 #include "dispatch/isa.hpp"
 #include "dynamics/velocity_verlet.hpp"
 #include "io/extended_xyz.hpp"
-#include "landscape/lennard_jones_landscape.hpp"
+#include "landscape/pair_landscape.hpp"
 
 namespace lanescape::testing {
 
@@ -20,12 +20,12 @@ inline Isa active_isa() { return choose_isa("auto"); }
 
 // A configuration with everything that moves it. Not copied or moved: its parts refer to one another.
 struct System {
-  LennardJonesModel model;
+  PairModel model;
   Configuration configuration;
   ParticleLayout layout;
-  LennardJonesLandscape landscape;
+  PairLandscape landscape;
 
-  System(LennardJonesModel m, Configuration c)
+  System(PairModel m, Configuration c)
       : model(std::move(m)),
         configuration(std::move(c)),
         layout(configuration.species, model.species.size()),
@@ -60,7 +60,7 @@ inline AlignedArray lowest_on_the_way(VelocityVerlet& verlet, int steps) {
   return lowest;
 }
 
-inline LennardJonesModel with_masses(LennardJonesModel model, double first, double second) {
+inline PairModel with_masses(PairModel model, double first, double second) {
   model.species[0].mass = first;
   model.species[1].mass = second;
   return model;

@@ -25,8 +25,7 @@ Subcommand add_endpoints(CLI::App& app) {
             OutputFolder folder = open_folder(state->common);
             folder.write_run_file("endpoints", options->resolved());
             EndPoints ends = make_end_points(model, start, protocol, isa, folder, state->common, state->system.resolve_precision());
-            if (std::holds_alternative<LennardJonesModel>(model))
-              ends.json["precision"] = to_string(state->system.resolve_precision());
+            if (std::holds_alternative<PairModel>(model)) ends.json["precision"] = to_string(state->system.resolve_precision());
             if (state->setup.radius_factor()) ends.json["radius_factor"] = *state->setup.radius_factor();
             status = ends.reached ? done : goal_not_reached;
             write_result(folder, "endpoints", options->resolved(), ends.json);

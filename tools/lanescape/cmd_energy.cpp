@@ -2,8 +2,8 @@
 
 #include "configuration/particle_layout.hpp"
 #include "core/error.hpp"
-#include "interaction/lennard_jones.hpp"
-#include "interaction/state_mixture.hpp"
+#include "interaction/pair/pair_interaction.hpp"
+#include "interaction/state/state_mixture.hpp"
 #include "program.hpp"
 #include "verification/reference_bridge.hpp"
 #include "verification/state_mixture_checks.hpp"
@@ -21,10 +21,9 @@ struct EnergyResult {
   std::vector<std::vector<double>> probabilities{};  // N, one for each state of the species
 };
 
-EnergyResult by_kernels(const LennardJonesModel& model, const Configuration& configuration, Isa isa,
-                        const PairSearchOptions& options) {
+EnergyResult by_kernels(const PairModel& model, const Configuration& configuration, Isa isa, const PairSearchOptions& options) {
   const ParticleLayout layout = ParticleLayout::in_space_order(configuration, model.species.size());
-  LennardJones interaction(model, configuration.box, layout, kernel_table(isa), options);
+  PairInteraction interaction(model, configuration.box, layout, kernel_table(isa), options);
   AlignedArray gradient(layout.dimension(), 0.0);
   const AlignedArray positions = layout.to_slots(configuration.positions);
   const auto with_stress = interaction.energy_and_stress(positions, gradient);
@@ -33,7 +32,7 @@ EnergyResult by_kernels(const LennardJonesModel& model, const Configuration& con
   return {e.energy, e.virial, with_stress.virial_tensor, layout.to_user(gradient)};
 }
 
-EnergyResult by_reference(const LennardJonesModel& model, const Configuration& configuration) {
+EnergyResult by_reference(const PairModel& model, const Configuration& configuration) {
   const auto e = evaluate_reference(model, configuration);
   return {e.energy, e.virial, e.virial_tensor, e.gradient};
 }
@@ -123,7 +122,7 @@ Json run_energy(EnergyState& state, const Options& options) {
     check_cutoff(soft, configuration.box);
     return simd ? by_kernels(soft, configuration, isa, search) : by_reference(soft, configuration);
   };
-  const auto* lennard_jones = std::get_if<LennardJonesModel>(&model);
+  const auto* lennard_jones = std::get_if<PairModel>(&model);
   const EnergyResult e = lennard_jones ? evaluate(*lennard_jones) : evaluate(std::get<StateMixtureModel>(model));
   OutputFolder folder = open_folder(state.common);
   Json result = to_json(e, configuration, model, simd ? to_string(isa) : "reference", state.forces, state.states);

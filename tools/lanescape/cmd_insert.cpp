@@ -5,16 +5,16 @@
 #include "core/error.hpp"
 #include "insert_runs.hpp"
 #include "insertion/removal.hpp"
-#include "interaction/probe_field.hpp"
+#include "interaction/pair/probe_field.hpp"
 #include "io/extended_xyz.hpp"
 #include "plot.hpp"
 
 namespace lanescape::program {
 namespace {
 
-double mean_excess_energy(const LennardJonesModel& model, const Configuration& fluid, Isa isa) {
+double mean_excess_energy(const PairModel& model, const Configuration& fluid, Isa isa) {
   const ParticleLayout layout = ParticleLayout::in_space_order(fluid, model.species.size());
-  return LennardJones(model, fluid.box, layout, kernel_table(isa)).energy(layout.to_slots(fluid.positions)) /
+  return PairInteraction(model, fluid.box, layout, kernel_table(isa)).energy(layout.to_slots(fluid.positions)) /
          static_cast<double>(fluid.size());
 }
 
@@ -36,8 +36,8 @@ struct Exchange {
   bool interrupted = false;
 };
 
-void insert_into(Configuration& fluid, const InsertState& state, const LennardJonesModel& model, const InsertionOptions& options,
-                 Isa isa, RunMonitor& monitor, Exchange& exchange) {
+void insert_into(Configuration& fluid, const InsertState& state, const PairModel& model, const InsertionOptions& options, Isa isa,
+                 RunMonitor& monitor, Exchange& exchange) {
   constexpr std::uint64_t at_once = 64;
   const int species = state.setup.species_index(model);
   const double mass = model.species[static_cast<std::size_t>(species)].mass;
@@ -64,8 +64,8 @@ void insert_into(Configuration& fluid, const InsertState& state, const LennardJo
   }
 }
 
-void remove_from(Configuration& fluid, const InsertState& state, const LennardJonesModel& model, const InsertionOptions& options,
-                 Isa isa, Exchange& exchange) {
+void remove_from(Configuration& fluid, const InsertState& state, const PairModel& model, const InsertionOptions& options, Isa isa,
+                 Exchange& exchange) {
   const RemovalRule rule = parse_removal_rule(state.removal);
   const CounterRandom random(options.seed, RandomStream::insertion);
   for (std::uint64_t k = 0; k < state.remove && !exchange.interrupted; ++k) {
@@ -82,7 +82,7 @@ void remove_from(Configuration& fluid, const InsertState& state, const LennardJo
   }
 }
 
-Json run_exchange(InsertState& state, const Options& options, const LennardJonesModel& model, Isa isa, int& status) {
+Json run_exchange(InsertState& state, const Options& options, const PairModel& model, Isa isa, int& status) {
   if (state.file.empty()) throw_bad_input("FILE is needed: the fluid to insert into; without one, --scan or --densify");
   Configuration fluid = read_first_frame(state.file, model);
   if (fluid.size() == 0)
@@ -128,7 +128,7 @@ Json run_exchange(InsertState& state, const Options& options, const LennardJones
 Json run_insert(InsertState& state, const Options& options, int& status) {
   state.common.check();
   const Isa isa = state.common.resolve_isa();
-  const LennardJonesModel model = state.system.resolve_lennard_jones("insert");
+  const PairModel model = state.system.resolve_pair_model("insert");
   if (state.system.precision) throw_bad_input("--precision is not allowed with insert: probes are in double precision");
   if (state.plot && state.common.out.empty() && state.common.resume.empty())
     throw_bad_input("--plot needs --out: the plots are files");

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "interaction/hard_sphere.hpp"
+#include "interaction/sphere/hard_sphere.hpp"
 #include "program.hpp"
 
 namespace lanescape::program {

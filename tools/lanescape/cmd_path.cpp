@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "end_point_options.hpp"
-#include "interaction/rounding_overlaps.hpp"
+#include "interaction/sphere/rounding_overlaps.hpp"
 #include "io/extended_xyz.hpp"
 #include "plot.hpp"
 #include "run/path_run.hpp"
@@ -257,7 +257,7 @@ Json run_path(PathState& state, const Options& options, const Options& setup_opt
                                 return a.radius_factor < b.radius_factor;
                               })->radius_factor;
   result["isa"] = to_string(isa);
-  if (std::holds_alternative<LennardJonesModel>(model)) result["precision"] = to_string(path_options.precision);
+  if (std::holds_alternative<PairModel>(model)) result["precision"] = to_string(path_options.precision);
   status = all_reached ? done : goal_not_reached;
   if (folder.exists()) write_files(folder, paths, path_options.method, mixture);
   write_result(folder, "path", resolved, result);

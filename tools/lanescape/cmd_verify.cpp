@@ -15,12 +15,12 @@ namespace lanescape::program {
 namespace {
 
 // The user's own files, under both image rules.
-void add_files(std::vector<LennardJonesCase>& cases, const std::vector<std::string>& files, const LennardJonesModel& model) {
+void add_files(std::vector<PairCase>& cases, const std::vector<std::string>& files, const PairModel& model) {
   for (const std::string& file : files)
     for (const Frame& frame : read_frames(file, model)) {
       check_separations_in(file, frame.configuration, model);
       for (const ImageRule rule : {ImageRule::all, ImageRule::minimum}) {
-        LennardJonesModel with_rule = model;
+        PairModel with_rule = model;
         with_rule.images = rule;
         cases.push_back({fmt::format("{} ({} images)", file, to_string(rule)), with_rule, frame.configuration});
       }
@@ -58,8 +58,8 @@ Json run_verify(VerifyState& state, const Options& options, int& status) {
   // One instruction set, where a flag or LANESCAPE_ISA names it, or all that are here.
   const bool forced = forced_isa(state.common.isa).has_value();
   const std::vector<Isa> isas = forced ? std::vector{state.common.resolve_isa()} : available_isas();
-  std::vector<LennardJonesCase> cases = lennard_jones_cases();
-  add_files(cases, state.files, state.system.resolve_lennard_jones("verify"));
+  std::vector<PairCase> cases = pair_cases();
+  add_files(cases, state.files, state.system.resolve_pair_model("verify"));
   OutputFolder folder = open_folder(state.common);
   std::optional<TemporaryFile> junit;  // made first: a place that cannot be written to is bad input
   if (!state.junit.empty()) junit.emplace(state.junit);

@@ -8,7 +8,7 @@
 
 namespace lanescape::program {
 
-Json run_growth(InsertState& state, const Options& options, const LennardJonesModel& model, Isa isa, int& status) {
+Json run_growth(InsertState& state, const Options& options, const PairModel& model, Isa isa, int& status) {
   if (!state.file.empty() && state.density) throw_bad_input("--density is not allowed with FILE, which has its own");
   DensificationOptions with;
   with.temperature = state.temperature.value_or(with.temperature);

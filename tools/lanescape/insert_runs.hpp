@@ -26,7 +26,7 @@ struct InsertState {
 };
 
 // What --densify and --scan do; the JSON for stdout.
-Json run_growth(InsertState& state, const Options& options, const LennardJonesModel& model, Isa isa, int& status);
-Json run_scan(InsertState& state, const Options& options, const LennardJonesModel& model, Isa isa, int& status);
+Json run_growth(InsertState& state, const Options& options, const PairModel& model, Isa isa, int& status);
+Json run_scan(InsertState& state, const Options& options, const PairModel& model, Isa isa, int& status);
 
 }  // namespace lanescape::program

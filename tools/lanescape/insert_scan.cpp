@@ -9,7 +9,7 @@
 namespace lanescape::program {
 namespace {
 
-InsertionScanOptions scan_options(const InsertState& state, const LennardJonesModel& model) {
+InsertionScanOptions scan_options(const InsertState& state, const PairModel& model) {
   InsertionScanOptions with;
   for (const std::string& text : list_of(state.states, "--states")) {
     const std::size_t colon = text.find(':');
@@ -118,7 +118,7 @@ Json table_json(const Rows& rows) {
 
 }  // namespace
 
-Json run_scan(InsertState& state, const Options& options, const LennardJonesModel& model, Isa isa, int& status) {
+Json run_scan(InsertState& state, const Options& options, const PairModel& model, Isa isa, int& status) {
   if (!state.file.empty()) throw_bad_input("FILE is not allowed with --scan, which makes its fluids");
   const InsertionScanOptions with = scan_options(state, model);
   OutputFolder folder = open_folder(state.common);

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "interaction/rounding_overlaps.hpp"
-#include "interaction/state_mixture.hpp"
+#include "interaction/sphere/rounding_overlaps.hpp"
+#include "interaction/state/state_mixture.hpp"
 #include "io/extended_xyz.hpp"
 #include "io/model_file.hpp"
 #include "program.hpp"
@@ -65,7 +65,7 @@ void refuse_options(std::initializer_list<std::pair<const char*, bool>> given, c
 
 Model SystemOptions::resolve() const {
   Model resolved = model_file.empty() ? named_model(model) : read_named(model_file, model);
-  if (auto* soft = std::get_if<LennardJonesModel>(&resolved)) {
+  if (auto* soft = std::get_if<PairModel>(&resolved)) {
     if (cutoff) soft->cutoff = *cutoff;
     if (images) soft->images = parse_image_rule(*images);
     if (truncation) soft->truncation = parse_truncation(*truncation);
@@ -89,17 +89,17 @@ Model SystemOptions::resolve() const {
 Precision SystemOptions::resolve_precision() const { return parse_precision(precision.value_or("double")); }
 
 void SystemOptions::check_precision_in(const Model& model, const Box& box, double skin) const {
-  if (const auto* soft = std::get_if<LennardJonesModel>(&model)) check_precision(*soft, box, resolve_precision(), skin);
+  if (const auto* soft = std::get_if<PairModel>(&model)) check_precision(*soft, box, resolve_precision(), skin);
 }
 
 ImageRule images_of(const Model& model) {
-  const auto* lennard_jones = std::get_if<LennardJonesModel>(&model);
+  const auto* lennard_jones = std::get_if<PairModel>(&model);
   return lennard_jones ? lennard_jones->images : ImageRule::all;
 }
 
-LennardJonesModel SystemOptions::resolve_lennard_jones(const char* subcommand) const {
+PairModel SystemOptions::resolve_pair_model(const char* subcommand) const {
   Model resolved = resolve();
-  if (auto* soft = std::get_if<LennardJonesModel>(&resolved)) return std::move(*soft);
+  if (auto* soft = std::get_if<PairModel>(&resolved)) return std::move(*soft);
   throw_bad_input(fmt::format(
       "{}: model {} is made of {}: allowed are kob-andersen, lennard-jones and model files of kind lennard-jones", subcommand,
       mixture_of(resolved).name, std::holds_alternative<HardSphereModel>(resolved) ? "hard spheres" : "sites with states"));

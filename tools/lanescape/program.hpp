@@ -18,7 +18,7 @@
 #include "core/error.hpp"
 #include "core/run_monitor.hpp"
 #include "dispatch/isa.hpp"
-#include "interaction/lennard_jones.hpp"
+#include "interaction/pair/pair_interaction.hpp"
 #include "output_folder.hpp"
 
 namespace lanescape::program {
@@ -134,7 +134,7 @@ struct SystemOptions {
   // Refuses mixed precision in a box where it is not to be had.
   void check_precision_in(const Model& model, const Box& box, double skin = default_skin) const;
   // For a subcommand that knows Lennard-Jones mixtures only, which the message for others names.
-  LennardJonesModel resolve_lennard_jones(const char* subcommand) const;
+  PairModel resolve_pair_model(const char* subcommand) const;
 };
 
 // The image rule of a soft model.

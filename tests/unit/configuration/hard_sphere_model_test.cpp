@@ -79,7 +79,7 @@ TEST(PackingFraction, IsTheShareOfTheBoxInsideSpheres) {
 TEST(NamedModel, FourNamesAreKnown) {
   for (const char* name : {"kob-andersen", "lennard-jones", "hard-sphere", "hard-sphere-binary"})
     EXPECT_EQ(mixture_of(named_model(name)).name, name);
-  EXPECT_TRUE(std::holds_alternative<LennardJonesModel>(named_model("kob-andersen")));
+  EXPECT_TRUE(std::holds_alternative<PairModel>(named_model("kob-andersen")));
   EXPECT_TRUE(std::holds_alternative<HardSphereModel>(named_model("hard-sphere")));
 }
 

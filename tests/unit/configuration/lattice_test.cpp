@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "configuration/lennard_jones_model.hpp"
+#include "configuration/pair_model.hpp"
 #include "core/error.hpp"
 #include "refusal.hpp"
 

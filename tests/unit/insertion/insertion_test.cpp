@@ -12,7 +12,7 @@
 #include "insertion/holes.hpp"
 #include "insertion/removal.hpp"
 #include "insertion/search.hpp"
-#include "interaction/lennard_jones.hpp"
+#include "interaction/pair/pair_interaction.hpp"
 #include "io/extended_xyz.hpp"
 #include "refusal.hpp"
 #include "verification/reference_bridge.hpp"
@@ -40,9 +40,9 @@ Configuration thin_mixture() {
   return thin;
 }
 
-double energy_of(const LennardJonesModel& model, const Configuration& fluid) {
+double energy_of(const PairModel& model, const Configuration& fluid) {
   const ParticleLayout layout(fluid.species, model.species.size());
-  return LennardJones(model, fluid.box, layout, table()).energy(layout.to_slots(fluid.positions));
+  return PairInteraction(model, fluid.box, layout, table()).energy(layout.to_slots(fluid.positions));
 }
 
 InsertionOptions options_with(double target, InsertionMethod method = InsertionMethod::usher) {
@@ -56,7 +56,7 @@ TEST(Insertion, EveryParticleRaisesTheEnergyByWhatItsRecordSaysWithinTheToleranc
   for (const Truncation truncation : {Truncation::shifted, Truncation::tail})
     for (const InsertionMethod method : every_method)
       for (const int species : {0, 1}) {
-        LennardJonesModel model = kob_andersen();
+        PairModel model = kob_andersen();
         model.truncation = truncation;
         Configuration fluid = thin_mixture();
         ProbeField field(model, fluid, species, table());
@@ -79,7 +79,7 @@ TEST(Insertion, EveryParticleRaisesTheEnergyByWhatItsRecordSaysWithinTheToleranc
 }
 
 TEST(Insertion, ATrialOfDirectUsherIsThatOfTheReference) {
-  const LennardJonesModel model = kob_andersen();
+  const PairModel model = kob_andersen();
   const Configuration fluid = thin_mixture();
   const ProbeField field(model, fluid, 0, table());
   InsertionOptions options = options_with(-4.0);
@@ -114,7 +114,7 @@ TEST(Insertion, ATrialOfDirectUsherIsThatOfTheReference) {
 }
 
 TEST(Insertion, ErrorsShrinkQuadraticallyNearTheTarget) {
-  const LennardJonesModel model = kob_andersen();
+  const PairModel model = kob_andersen();
   const ProbeField field(model, thin_mixture(), 0, table());
   const InsertionOptions options = options_with(-4.0);
   std::size_t steps = 0;
@@ -137,7 +137,7 @@ TEST(Insertion, ErrorsShrinkQuadraticallyNearTheTarget) {
 }
 
 TEST(Insertion, SearchesDoNotDependOnTheNumberOfThreads) {
-  const LennardJonesModel model = kob_andersen();
+  const PairModel model = kob_andersen();
   for (const InsertionMethod method : {InsertionMethod::usher, InsertionMethod::screened}) {
     std::vector<std::vector<Insertion>> runs;
     for (const int threads : {1, 3}) {
@@ -156,7 +156,7 @@ TEST(Insertion, SearchesDoNotDependOnTheNumberOfThreads) {
 }
 
 TEST(Insertion, ReflectedSearchesProbeNothingOutsideTheirRegion) {
-  const LennardJonesModel model = kob_andersen();
+  const PairModel model = kob_andersen();
   const ProbeField field(model, thin_mixture(), 0, table());
   for (const InsertionMethod method : every_method) {
     InsertionOptions options = options_with(-3.5, method);
@@ -177,7 +177,7 @@ TEST(Insertion, ReflectedSearchesProbeNothingOutsideTheirRegion) {
 }
 
 TEST(Insertion, SearchesInAWellEndInTheirRegion) {
-  const LennardJonesModel model = kob_andersen();
+  const PairModel model = kob_andersen();
   const ProbeField field(model, thin_mixture(), 0, table());
   InsertionOptions options = options_with(-3.5);
   options.region = Region{{0.5, 1.0, 0.0}, {1.7, 3.0, field.box().length[2]}};
@@ -190,7 +190,7 @@ TEST(Insertion, SearchesInAWellEndInTheirRegion) {
 }
 
 TEST(Insertion, ATargetThatNoPlaceHasIsGivenUpAtTheLimitAndNothingIsPutIn) {
-  const LennardJonesModel model = kob_andersen();
+  const PairModel model = kob_andersen();
   ProbeField field(model, thin_mixture(), 0, table());
   const std::size_t before = field.size();
   for (const InsertionMethod method : every_method) {
@@ -208,7 +208,7 @@ TEST(Insertion, ATargetThatNoPlaceHasIsGivenUpAtTheLimitAndNothingIsPutIn) {
 }
 
 TEST(Insertion, UnderARunningMeanSingleErrorsMayBeLargerButNoMeanOfThirtyIs) {
-  const LennardJonesModel model = kob_andersen();
+  const PairModel model = kob_andersen();
   const ProbeField field(model, thin_mixture(), 0, table());
   InsertionOptions options = options_with(-3.5);
   options.measure = ErrorMeasure::running_mean;
@@ -227,7 +227,7 @@ TEST(Insertion, UnderARunningMeanSingleErrorsMayBeLargerButNoMeanOfThirtyIs) {
 }
 
 TEST(Insertion, TowardsZeroTheToleranceIsAbsolute) {
-  const LennardJonesModel model = kob_andersen();
+  const PairModel model = kob_andersen();
   const ProbeField field(model, thin_mixture(), 0, table());
   InsertionHistory history;
   for (const Insertion& place : find_places(field, options_with(0.0), 20, history, 1)) {
@@ -276,7 +276,7 @@ TEST(Insertion, VelocitiesAreMaxwells) {
 }
 
 TEST(Removal, OfTheLeastDisturbanceHasTheEnergyNearestToTheOneAskedForAndLiesInTheRegion) {
-  const LennardJonesModel model = kob_andersen();
+  const PairModel model = kob_andersen();
   const Configuration fluid = thin_mixture();
   const CounterRandom random(1, RandomStream::insertion);
   const auto without = [&](std::size_t particle) {
@@ -302,7 +302,7 @@ TEST(Removal, OfTheLeastDisturbanceHasTheEnergyNearestToTheOneAskedForAndLiesInT
 }
 
 TEST(Removal, AtRandomTakesEveryParticleAboutEquallyOften) {
-  const LennardJonesModel model = lennard_jones();
+  const PairModel model = lennard_jones();
   Configuration fluid{{{9.0, 9.0, 9.0}}, {}, {}};
   for (int i = 0; i < 5; ++i) {
     fluid.species.push_back(0);
@@ -329,7 +329,7 @@ TEST(Holes, TheFitOfAProlateEllipsoidIsInvertedExactly) {
 
 TEST(Holes, InACageOfSixTheRadiusAlongTheAxesIsWhereTheEnergyRises) {
   // A cage with the symmetry of an octahedron is nearly round, and <R> lies between the radii towards a particle and between them.
-  const LennardJonesModel model = lennard_jones();
+  const PairModel model = lennard_jones();
   const double d = 1.2;
   const Configuration cage{
       {{12.0, 12.0, 12.0}}, {0, 0, 0, 0, 0, 0}, {6 + d, 6, 6, 6 - d, 6, 6, 6, 6 + d, 6, 6, 6 - d, 6, 6, 6, 6 + d, 6, 6, 6 - d}};

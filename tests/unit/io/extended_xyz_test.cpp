@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "configuration/hard_sphere_model.hpp"
-#include "configuration/lennard_jones_model.hpp"
+#include "configuration/pair_model.hpp"
 #include "test_files.hpp"
 
 namespace lanescape {
@@ -34,7 +34,7 @@ std::string with_pbc(const std::string& pbc) {
 }
 std::string with_particle(const std::string& line) { return "1\n" + comment + "\n" + line + "\n"; }
 
-Frame read(const std::string& content, const LennardJonesModel& model = kob_andersen()) {
+Frame read(const std::string& content, const PairModel& model = kob_andersen()) {
   const TemporaryFolder folder;
   return read_single_frame(folder.file("frame.extxyz", content), model);
 }

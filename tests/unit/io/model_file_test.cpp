@@ -25,7 +25,7 @@ const std::string pairs =
     "[[pair]]\nspecies = ['P', 'Ni']\nepsilon = 1.5\nsigma = 0.8\n"
     "[[pair]]\nspecies = ['P', 'P']\nepsilon = 0.5\nsigma = 0.88\n";
 
-template <class Kind = LennardJonesModel>
+template <class Kind = PairModel>
 Kind read(const std::string& content) {
   const TemporaryFolder folder;
   return std::get<Kind>(read_model_file(folder.file("mixture.toml", content)));
@@ -41,7 +41,7 @@ void expect_equal_mixtures(const Mixture& a, const Mixture& b) {
   }
 }
 
-void expect_equal(const LennardJonesModel& a, const LennardJonesModel& b) {
+void expect_equal(const PairModel& a, const PairModel& b) {
   expect_equal_mixtures(a, b);
   EXPECT_EQ(a.epsilon, b.epsilon);
   EXPECT_EQ(a.sigma, b.sigma);
@@ -121,7 +121,7 @@ TEST(ModelFile, WidthsAreATenthOfThresholdsAndFiltersOneWhereNotGiven) {
 }
 
 TEST(ModelFile, KobAndersenFromAFileIsTheNamedModel) {
-  const LennardJonesModel model = read(
+  const PairModel model = read(
       "kind = \"lennard-jones\"  # a comment\nname = \"kob-andersen\"\ncutoff = 2.5\ntruncation = \"shifted\"\nimages = "
       "\"all\"\n"
       "[[species]]\nname = \"Ni\"\nmass = 1.0\nfraction = 0.8\n[[species]]\nname = \"P\"\nfraction = 0.2\n" +
@@ -130,7 +130,7 @@ TEST(ModelFile, KobAndersenFromAFileIsTheNamedModel) {
 }
 
 TEST(ModelFile, WhatIsLeftOutHasItsDefault) {
-  const LennardJonesModel model = read(kind + species + pairs);
+  const PairModel model = read(kind + species + pairs);
   EXPECT_EQ(model.name, "mixture");
   EXPECT_EQ(model.cutoff, 2.5);
   EXPECT_EQ(model.truncation, Truncation::shifted);
@@ -142,20 +142,20 @@ TEST(ModelFile, WhatIsLeftOutHasItsDefault) {
 }
 
 TEST(ModelFile, EveryOptionIsRead) {
-  const LennardJonesModel model = read(kind + "cutoff = 3\ntruncation = 'tail'\nimages = 'minimum'\n" + species + pairs);
+  const PairModel model = read(kind + "cutoff = 3\ntruncation = 'tail'\nimages = 'minimum'\n" + species + pairs);
   EXPECT_EQ(model.cutoff, 3.0);
   EXPECT_EQ(model.truncation, Truncation::tail);
   EXPECT_EQ(model.images, ImageRule::minimum);
 }
 
 TEST(ModelFile, APairInEitherOrderFillsBothTriangles) {
-  const LennardJonesModel model = read(kind + species + pairs);
+  const PairModel model = read(kind + species + pairs);
   EXPECT_EQ(model.epsilon, (std::vector<double>{1.0, 1.5, 1.5, 0.5}));
   EXPECT_EQ(model.sigma, (std::vector<double>{1.0, 0.8, 0.8, 0.88}));
 }
 
 TEST(ModelFile, WrittenModelsReadBackBitForBit) {
-  LennardJonesModel model = kob_andersen();
+  PairModel model = kob_andersen();
   model.name = "a \"quoted\" \\ name";
   model.species[0] = {"it's", 1.0 / 3.0, 0.30000000000000004};
   model.species[1].fraction = 0.7;
@@ -196,7 +196,7 @@ TEST(ModelFile, WrittenHardSpheresReadBackBitForBit) {
 }
 
 TEST(ModelFile, AModelTheReaderWouldRefuseIsNotWritten) {
-  LennardJonesModel spaced = lennard_jones(), full = kob_andersen(), broken = lennard_jones();
+  PairModel spaced = lennard_jones(), full = kob_andersen(), broken = lennard_jones();
   spaced.species[0].name = "two words";
   full.species[1].fraction = 1.0;
   broken.sigma[0] = std::numeric_limits<double>::quiet_NaN();

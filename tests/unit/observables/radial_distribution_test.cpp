@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "configuration/lattice.hpp"
-#include "configuration/lennard_jones_model.hpp"
+#include "configuration/pair_model.hpp"
 #include "core/random.hpp"
 
 namespace lanescape {

@@ -1,0 +1,118 @@
+#include <array>
+#include <cmath>
+
+#include "core/parallel.hpp"
+#include "interaction/pair/pair_parameters.hpp"
+#include "interaction/pair/pair_sums.hpp"
+
+namespace lanescape {
+namespace {
+
+std::vector<double> cutoffs(const std::vector<kernels::LjPair>& pairs) {
+  std::vector<double> cutoffs;
+  for (const auto& pair : pairs) cutoffs.push_back(std::sqrt(pair.cutoff_squared));
+  return cutoffs;
+}
+
+std::vector<kernels::LjSinglePair> in_single_precision(const std::vector<kernels::LjPair>& pairs, double fixed_unit) {
+  const double sigma_squared = 1.0 / (fixed_unit * fixed_unit);
+  std::vector<kernels::LjSinglePair> single;
+  for (const auto& pair : pairs)
+    single.push_back({static_cast<float>(12.0 * pair.c12), static_cast<float>(-6.0 * pair.c6),
+                      static_cast<float>(pair.cutoff_squared * sigma_squared), static_cast<float>(sigma_squared)});
+  return single;
+}
+
+}  // namespace
+
+ListSums::ListSums(const PairModel& model, const Box& box, const ParticleLayout& layout, const kernels::KernelTable& table,
+                   double skin, int threads, Precision precision)
+    : table_(&table),
+      precision_(precision),
+      pairs_(pair_parameters(model)),
+      list_(box, layout, cutoffs(pairs_), skin, table, threads,
+            precision == Precision::mixed ? NeighbourList::Coordinates::floating_and_fixed : NeighbourList::Coordinates::floating) {
+  if (precision == Precision::mixed) single_pairs_ = in_single_precision(pairs_, list_.fixed_unit());
+  for (std::size_t b = 0; b < layout.blocks().size(); ++b) {
+    const std::size_t end = b + 1 < layout.blocks().size() ? layout.blocks()[b + 1].begin : layout.slots();
+    for (std::size_t slot = layout.blocks()[b].begin + layout.blocks()[b].count; slot < end; ++slot) padding_.push_back(slot);
+  }
+}
+
+template <class Evaluate>
+void ListSums::for_each_block(const AlignedArray& positions, Evaluate evaluate) {
+  list_.update(positions);
+  sums_.assign(list_.block_count(), {});
+  const std::size_t species = list_.species();
+  for_each_part(list_.parts(), [&](int part) {
+    alignas(kernels::array_alignment) std::array<double, kernels::point_width * NeighbourList::block_rows> records;
+    for (std::size_t b = list_.first_block(part); b < list_.first_block(part + 1); ++b)
+      evaluate(b,
+               kernels::LjListInput{list_.rows_of(b), pairs_.data() + list_.species_of(b) * species,
+                                    single_pairs_.empty() ? nullptr : single_pairs_.data() + list_.species_of(b) * species},
+               records.data());
+  });
+}
+
+void ListSums::clear_padding(AlignedArray& gradient) const {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const std::size_t slot : padding_) gradient[axis * gradient.size() / 3 + slot] = 0.0;
+}
+
+void ListSums::put_gradient(std::size_t block, const double* records, AlignedArray& gradient) const {
+  const std::size_t slots = gradient.size() / 3;
+  const kernels::NeighbourRows rows = list_.rows_of(block);
+  for (std::size_t k = 0; k < rows.row_count; ++k) {
+    double* g = gradient.data() + list_.slot_at(rows.rows[k]);
+    g[0] = records[kernels::point_width * k];
+    g[slots] = records[kernels::point_width * k + 1];
+    g[2 * slots] = records[kernels::point_width * k + 2];
+  }
+}
+
+// Block after block, whoever summed them.
+kernels::PairOutput ListSums::total() const {
+  kernels::PairOutput total{};
+  for (const kernels::PairOutput& sum : sums_) {
+    total.energy += sum.energy;
+    total.virial += sum.virial;
+    for (std::size_t k = 0; k < 6; ++k) total.virial_tensor[k] += sum.virial_tensor[k];
+  }
+  return total;
+}
+
+double ListSums::energy(const AlignedArray& positions) {
+  const auto sum = precision_ == Precision::mixed ? table_->lj_list_energy_mixed : table_->lj_list_energy;
+  for_each_block(positions, [&](std::size_t b, const kernels::LjListInput& in, double*) { sums_[b].energy = sum(in); });
+  return total().energy;
+}
+
+void ListSums::gradient_only(const AlignedArray& positions, AlignedArray& gradient) {
+  const auto sum = precision_ == Precision::mixed ? table_->lj_list_force_mixed : table_->lj_list_force;
+  for_each_block(positions, [&](std::size_t b, const kernels::LjListInput& in, double* records) {
+    sum(in, records);
+    put_gradient(b, records, gradient);
+  });
+  clear_padding(gradient);
+}
+
+void ListSums::gradient(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) {
+  const auto sum = precision_ == Precision::mixed ? table_->lj_list_gradient_mixed : table_->lj_list_gradient;
+  for_each_block(positions, [&](std::size_t b, const kernels::LjListInput& in, double* records) {
+    sum(in, records, sums_[b]);
+    put_gradient(b, records, gradient);
+  });
+  clear_padding(gradient);
+  out = total();
+}
+
+void ListSums::stress(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) {
+  for_each_block(positions, [&](std::size_t b, const kernels::LjListInput& in, double* records) {
+    table_->lj_list_stress(in, records, sums_[b]);
+    put_gradient(b, records, gradient);
+  });
+  clear_padding(gradient);
+  out = total();
+}
+
+}  // namespace lanescape

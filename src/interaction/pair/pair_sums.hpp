@@ -1,0 +1,79 @@
+#pragma once
+
+#include <vector>
+
+#include "configuration/pair_model.hpp"
+#include "configuration/particle_layout.hpp"
+#include "core/aligned_array.hpp"
+#include "core/archive.hpp"
+#include "core/box.hpp"
+#include "interaction/pair/pair_interaction.hpp"
+#include "kernel_table.hpp"
+#include "neighbour/neighbour_list.hpp"
+
+namespace lanescape {
+
+// The sums over pairs that depend on positions, by whichever way of finding the pairs; PairInteraction adds the rest.
+class PairSums {
+ public:
+  virtual ~PairSums() = default;
+  virtual double energy(const AlignedArray& positions) = 0;
+  virtual void gradient_only(const AlignedArray& positions, AlignedArray& gradient) = 0;
+  virtual void gradient(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) = 0;
+  virtual void stress(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) = 0;
+  // What else than the positions the bits depend on.
+  virtual void exchange(Archive&) {}
+};
+
+// Every pair once, whether near or not: for small systems, and for the minimum-image rule in small boxes. One thread.
+class AllPairsSums final : public PairSums {
+ public:
+  AllPairsSums(const PairModel& model, const Box& box, const ParticleLayout& layout, const kernels::KernelTable& table);
+
+  double energy(const AlignedArray& positions) override;
+  void gradient_only(const AlignedArray& positions, AlignedArray& gradient) override;
+  void gradient(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) override;
+  void stress(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) override;
+
+ private:
+  kernels::LjInput input(const AlignedArray& positions);
+
+  const kernels::KernelTable* table_;
+  std::vector<kernels::SpeciesBlock> blocks_;
+  std::vector<kernels::LjPair> pairs_;
+  AlignedArray scratch_;
+  kernels::LjInput input_{};
+};
+
+// Over a neighbour list, on any number of threads with the same bits.
+class ListSums final : public PairSums {
+ public:
+  ListSums(const PairModel& model, const Box& box, const ParticleLayout& layout, const kernels::KernelTable& table, double skin,
+           int threads, Precision precision);
+
+  double energy(const AlignedArray& positions) override;
+  void gradient_only(const AlignedArray& positions, AlignedArray& gradient) override;
+  void gradient(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) override;
+  void stress(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) override;
+  void exchange(Archive& archive) override { list_.exchange(archive); }
+
+  const NeighbourList& list() const { return list_; }
+
+ private:
+  // evaluate(input of a block's rows, records for their gradients, sums of the block) for every block.
+  template <class Evaluate>
+  void for_each_block(const AlignedArray& positions, Evaluate evaluate);
+  void clear_padding(AlignedArray& gradient) const;
+  void put_gradient(std::size_t block, const double* records, AlignedArray& gradient) const;
+  kernels::PairOutput total() const;
+
+  const kernels::KernelTable* table_;
+  Precision precision_;
+  std::vector<kernels::LjPair> pairs_;
+  std::vector<kernels::LjSinglePair> single_pairs_;  // of mixed precision, else none
+  NeighbourList list_;
+  std::vector<std::size_t> padding_;       // slots without a particle
+  std::vector<kernels::PairOutput> sums_;  // of each block
+};
+
+}  // namespace lanescape

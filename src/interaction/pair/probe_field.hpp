@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "configuration/configuration.hpp"
+#include "configuration/pair_model.hpp"
+#include "kernel_table.hpp"
+#include "neighbour/probe_cells.hpp"
+
+namespace lanescape {
+
+// What one more particle would feel in a fluid that stands still. The energy is what the fluid's would rise by if the particle were
+// put there: the full sum over the pairs with all others and their images, half of its own images and the growth of the long-range
+// correction, which do not depend on the place. Any number of threads may look at a field that nobody changes.
+class ProbeField {
+ public:
+  using Point = std::array<double, 3>;
+  struct Sample {
+    double energy = 0.0;  // [epsilon]
+    Point gradient{};     // [epsilon/sigma]
+  };
+
+  // `species`: of the probe. Throws what check_cutoff() throws, and Error(bad_input) for a species that the model does not have and
+  // for the minimum-image rule in a box whose shortest edge is below twice the cutoff, where a probe would feel a jump. O(N).
+  ProbeField(const PairModel& model, const Configuration& fluid, int species, const kernels::KernelTable& table);
+
+  Sample sample(const Point& position) const;
+  double energy(const Point& position) const;
+  // Of many positions, x0 y0 z0 x1 ..., to the same bits.
+  void energies(std::span<const double> positions, std::span<double> out) const;
+
+  // Per species the distance at which r^-12 alone gives a probe this energy [sigma].
+  std::vector<double> clearances(double energy) const;
+  // The first of these positions, which are in the box, with no particle nearer than its species' clearance; their number if there
+  // is none.
+  std::size_t first_clear(std::span<const double> clearances, std::span<const double> positions) const;
+
+  // Changes the fluid. remove() returns whether there was a particle with these coordinates, to the bit once wrapped.
+  void insert(const Point& position, int species);
+  bool remove(const Point& position, int species);
+
+  const Box& box() const { return box_; }
+  std::size_t size() const;  // particles of the fluid
+  int species() const { return species_; }
+  double largest_cutoff() const { return largest_cutoff_; }  // of the probe's pairs [sigma]
+  double largest_sigma() const { return largest_sigma_; }    // likewise
+  // The part of the energy that does not depend on the place, but on how many particles there are [epsilon].
+  double constant() const { return constant_; }
+
+ private:
+  // Cells and pair, as the kernels take them; made anew at every change.
+  void refresh();
+  Point home(const Point& position) const;
+
+  const kernels::KernelTable* table_;
+  Box box_;
+  int species_;
+  double largest_cutoff_ = 0.0, largest_sigma_ = 0.0;
+  std::vector<ProbeCells> cells_;  // by species
+  std::vector<kernels::LjPair> pairs_;
+  std::vector<double> tail_;  // what the energy rises by for each particle there is of a species
+  double own_ = 0.0, constant_ = 0.0;
+  std::vector<kernels::ProbeSpecies> views_;
+};
+
+}  // namespace lanescape

@@ -1,0 +1,201 @@
+#include "interaction/state/state_mixture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "interaction/pair/closest_pair.hpp"
+#include "interaction/state/local_density.hpp"
+#include "interaction/state/state_potentials.hpp"
+
+namespace lanescape {
+namespace {
+
+constexpr double allowed_ratio = 0.3;
+
+int no_scratch() { return 0; }
+
+// What every part needs to see, of both sites of a pair.
+std::vector<double> joint_reaches(const StateMixtureParts& parts, std::size_t species) {
+  std::vector<double> joint(species * species, 0.0);
+  const auto widen = [&](const std::vector<double>& reaches) {
+    for (std::size_t k = 0; k < reaches.size(); ++k) {
+      const std::size_t mirrored = k % species * species + k / species;
+      joint[k] = std::max({joint[k], reaches[k], reaches[mirrored]});
+    }
+  };
+  if (parts.order_parameter) widen(parts.order_parameter->reaches());
+  for (const auto& potential : parts.potentials) widen(potential->reaches());
+  return joint;
+}
+
+NeighbourList::Members members(PairSearch search) {
+  return search == PairSearch::all_pairs ? NeighbourList::Members::every_point : NeighbourList::Members::with_own_images;
+}
+
+// The Lennard-Jones potentials of a model, and its tables, where it has any; each with none in the place of the other.
+std::vector<std::unique_ptr<StatePotential>> potentials_of(const StateMixtureModel& model) {
+  const StatePairs order{model.species.size(), model.most_states()};
+  std::vector<LennardJonesStates::Pair> pairs(order.size());
+  std::vector<TabulatedStates::Table> tables(order.size());
+  bool any_pair = false, any_table = false;
+  for (std::size_t s = 0; s < order.species; ++s)
+    for (std::size_t t = 0; t < order.species; ++t)
+      for (std::size_t a = 0; a < model.states_of(s); ++a)
+        for (std::size_t b = 0; b < model.states_of(t); ++b) {
+          const auto& u = model.potentials[model.potential_at(s, a, t, b)];
+          const std::size_t place = order.at(s, a, t, b);
+          if (const auto* lj = std::get_if<StateMixtureModel::LennardJones>(&u)) {
+            pairs[place] = {lj->epsilon, lj->sigma};
+            any_pair = true;
+          } else {
+            const auto& table = std::get<StateMixtureModel::Table>(u);
+            tables[place] = {table.first, (table.last - table.first) / static_cast<double>(table.values.size() - 1), table.values};
+            any_table = true;
+          }
+        }
+  std::vector<std::unique_ptr<StatePotential>> potentials;
+  if (any_pair)
+    potentials.push_back(
+        std::make_unique<LennardJonesStates>(order, pairs, std::vector<double>(order.species * order.species, model.cutoff)));
+  if (any_table) potentials.push_back(std::make_unique<TabulatedStates>(order, tables));
+  return potentials;
+}
+
+}  // namespace
+
+StateMixtureParts make_parts(const StateMixtureModel& model) {
+  model.check();
+  std::vector<SwitchingFunction> switching;
+  std::vector<std::vector<TanhCascade::Step>> steps;
+  OneBodyTerms one_body{std::vector<double>(model.species.size() * model.most_states(), 0.0), model.entropy_temperature};
+  for (std::size_t s = 0; s < model.states.size(); ++s) {
+    const auto& of_species = model.states[s];
+    switching.push_back(
+        SwitchingFunction::tapered_tanh(of_species.switching.threshold, of_species.switching.width, of_species.switching.cutoff));
+    steps.emplace_back();
+    for (const auto& step : of_species.steps) steps.back().push_back({step.threshold, step.width});
+    std::copy(of_species.mu.begin(), of_species.mu.end(),
+              one_body.mu.begin() + static_cast<std::ptrdiff_t>(s * model.most_states()));
+  }
+  return {std::make_unique<LocalDensity>(std::move(switching), model.filter), std::make_unique<TanhCascade>(std::move(steps)),
+          potentials_of(model), std::move(one_body)};
+}
+
+void check_cutoff(const StateMixtureModel& model, const Box& box) {
+  double reach = 0.0;
+  for (std::size_t s = 0; s < model.species.size(); ++s)
+    for (std::size_t t = 0; t < model.species.size(); ++t) reach = std::max(reach, model.reach(s, t));
+  if (image_shells(box.shortest(), reach) > max_image_shells)
+    throw_bad_input(
+        fmt::format("cutoff {} reaches over more than {} images of the box, whose shortest edge is {}: at most {} is allowed",
+                    reach, max_image_shells, box.shortest(), (max_image_shells + 0.5) * box.shortest()));
+}
+
+void check_separations(const Configuration& configuration, const StateMixtureModel& model) {
+  for (std::size_t k = 0; k < configuration.positions.size(); ++k)
+    if (!std::isfinite(configuration.positions[k]))
+      throw_bad_input(fmt::format("particle {}: coordinate {} is not finite", k / 3, configuration.positions[k]));
+  double largest = 0.0;
+  for (std::size_t s = 0; s < model.species.size(); ++s)
+    for (std::size_t t = 0; t < model.species.size(); ++t) largest = std::max(largest, model.size_of(s, t));
+  const ClosePair closest = closest_pair(configuration, allowed_ratio * largest, [&](std::size_t i, std::size_t j) {
+    const auto& species = configuration.species;
+    return model.size_of(static_cast<std::size_t>(species[i]), static_cast<std::size_t>(species[j]));
+  });
+  if (closest.ratio_squared < allowed_ratio * allowed_ratio)
+    throw_bad_input(fmt::format("particles {} and {} overlap: their distance is {:.6g} of their size, at least {} is needed",
+                                closest.i, closest.j, std::sqrt(closest.ratio_squared), allowed_ratio));
+}
+
+void check_soft_separations(const Configuration& configuration, const Model& model) {
+  if (const auto* lennard_jones = std::get_if<PairModel>(&model)) check_separations(configuration, *lennard_jones);
+  if (const auto* states = std::get_if<StateMixtureModel>(&model)) check_separations(configuration, *states);
+}
+
+StateMixture::StateMixture(StateMixtureParts parts, const Box& box, const ParticleLayout& layout, const kernels::KernelTable& table,
+                           const Options& options)
+    : parts_(std::move(parts)),
+      sites_(box, layout, joint_reaches(parts_, layout.blocks().size()), parts_.response->states(), table,
+             {options.threads, options.skin, members(options.search)}),
+      values_(layout.slots(), 0.0),
+      multipliers_(layout.slots(), 0.0),
+      slopes_(layout.slots() * parts_.response->states(), 0.0),
+      probability_slopes_(layout.slots() * parts_.response->states(), 0.0),
+      unused_(layout.dimension(), 0.0) {
+  if (parts_.one_body.mu.empty()) parts_.one_body.mu.assign(layout.blocks().size() * parts_.response->states(), 0.0);
+}
+
+double StateMixture::find_states() {
+  const auto& list = sites_.list();
+  const std::size_t states = sites_.states();
+  const double temperature = parts_.one_body.entropy_temperature;
+  std::vector<double> energies(list.block_count(), 0.0);
+  const auto scratch = [states] { return std::vector<StateProbability>(states); };
+  sites_.for_each_block(scratch, [&](std::size_t b, const kernels::NeighbourRows& rows, std::vector<StateProbability>& of_site) {
+    const double* mu = parts_.one_body.mu.data() + list.species_of(b) * states;
+    for (std::size_t k = 0; k < rows.row_count; ++k) {
+      const std::size_t slot = list.slot_at(rows.rows[k]);
+      parts_.response->evaluate(list.species_of(b), values_[slot], of_site);
+      double multiplier = 0.0;
+      for (std::size_t a = 0; a < states; ++a) {
+        const auto& [p, slope, logarithm] = of_site[a];
+        sites_.site_states().p[slot * states + a] = p;
+        probability_slopes_[slot * states + a] = slope;
+        // p ln p vanishes with p, and so does what follows from it with dp.
+        energies[b] += mu[a] * p + (p > 0.0 ? temperature * p * logarithm : 0.0);
+        if (slope != 0.0) multiplier += slope * (mu[a] + temperature * (logarithm + 1.0));
+      }
+      multipliers_[slot] = multiplier;
+    }
+  });
+  double energy = 0.0;
+  for (const double of_block : energies) energy += of_block;
+  return energy;
+}
+
+// dU/d(order parameter) = sum_a dU/dp_a dp_a/d(order parameter).
+void StateMixture::add_multipliers_of_potentials() {
+  const auto& list = sites_.list();
+  const std::size_t states = sites_.states();
+  sites_.for_each_block(no_scratch, [&](std::size_t, const kernels::NeighbourRows& rows, int) {
+    for (std::size_t k = 0; k < rows.row_count; ++k) {
+      const std::size_t slot = list.slot_at(rows.rows[k]);
+      for (std::size_t a = 0; a < states; ++a)
+        multipliers_[slot] += probability_slopes_[slot * states + a] * slopes_[slot * states + a];
+    }
+  });
+}
+
+StateMixture::Evaluation StateMixture::evaluate(const AlignedArray& positions, AlignedArray& gradient, StateSums::Wanted wanted) {
+  const bool by_order = parts_.order_parameter && sites_.states() > 1, forces = wanted != StateSums::Wanted::energy;
+  sites_.move_to(positions);
+  if (by_order) parts_.order_parameter->evaluate(sites_, values_);
+  const double one_body_energy = find_states();
+  sites_.put_states();
+  std::fill(gradient.begin(), gradient.end(), 0.0);
+  std::fill(slopes_.begin(), slopes_.end(), 0.0);
+  StateSums sums{wanted, gradient, slopes_};
+  for (const auto& potential : parts_.potentials) potential->add(sites_, sums);
+  if (by_order && forces) {
+    add_multipliers_of_potentials();
+    parts_.order_parameter->add_gradient(sites_, multipliers_, sums);
+  }
+  return {sums.energy + one_body_energy, one_body_energy, sums.virial, sums.virial_tensor};
+}
+
+double StateMixture::energy(const AlignedArray& positions) {
+  return evaluate(positions, unused_, StateSums::Wanted::energy).energy;
+}
+
+StateMixture::Evaluation StateMixture::energy_and_gradient(const AlignedArray& positions, AlignedArray& gradient) {
+  return evaluate(positions, gradient, StateSums::Wanted::gradient);
+}
+
+StateMixture::Evaluation StateMixture::energy_and_stress(const AlignedArray& positions, AlignedArray& gradient) {
+  return evaluate(positions, gradient, StateSums::Wanted::stress);
+}
+
+}  // namespace lanescape

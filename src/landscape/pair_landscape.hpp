@@ -1,0 +1,38 @@
+#pragma once
+
+#include "dispatch/isa.hpp"
+#include "interaction/pair/pair_interaction.hpp"
+#include "landscape/soft_landscape.hpp"
+
+namespace lanescape {
+
+// The landscape of a Lennard-Jones mixture in a fixed box, R in the layout's order.
+class PairLandscape final : public SoftLandscape {
+ public:
+  PairLandscape(const PairModel& model, const Box& box, const ParticleLayout& layout, Isa isa,
+                const PairSearchOptions& options = {});
+
+  std::size_t dimension() const override { return dimension_; }
+  std::size_t particles() const override { return particles_; }
+  const VectorAlgebra& algebra() const override { return algebra_; }
+  double energy(const AlignedArray& position) override { return interaction_.energy(position); }
+  double energy_and_gradient(const AlignedArray& position, AlignedArray& gradient) override;
+  void gradient(const AlignedArray& position, AlignedArray& gradient) override { interaction_.gradient(position, gradient); }
+  void exchange(Archive& archive) override { interaction_.exchange(archive); }
+
+  // V and sum r.f [epsilon]; overwrites `gradient`.
+  struct EnergyAndVirial {
+    double energy, virial;
+  };
+  EnergyAndVirial energy_and_virial(const AlignedArray& position, AlignedArray& gradient) {
+    const PairInteraction::Evaluation e = interaction_.energy_and_gradient(position, gradient);
+    return {e.energy, e.virial};
+  }
+
+ private:
+  std::size_t dimension_, particles_;
+  VectorAlgebra algebra_;
+  PairInteraction interaction_;
+};
+
+}  // namespace lanescape
