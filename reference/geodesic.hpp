@@ -26,9 +26,9 @@ struct GeodesicOptions {
 
 struct Geodesic {
   Outcome outcome = Outcome::reached;
-  const char* reason = "";        // why it stalled
-  double length = 0.0;            // [sigma], last hop to R_f included
-  long direct_steps = 0;          // accepted steps by kind; the last hop is none of them
+  const char* reason = "";  // why it stalled
+  double length = 0.0;      // [sigma], last hop to R_f included
+  long direct_steps = 0;    // accepted steps by kind; the last hop is none of them
   long contour_steps = 0;
   long escape_steps = 0;          // one for each return to V <= E_L + dV, however many iterations it took
   double participation = 0.0;     // mean of (sum_j dr_j^2)^2 / sum_j dr_j^4 weighted with step length, [G] Eq. 4.17

@@ -1,11 +1,12 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <limits>
 #include <span>
 #include <utility>
 #include <vector>
+
+#include "reference/vector.hpp"
 
 /// The arbiter for hard spheres: scalar, O(N^2), written from PHYSICS 1.2, 1.3 and 3.4.
 ///
@@ -17,8 +18,6 @@
 /// then d - L nearbyint(d/L); r2 = (dx dx + dy dy) + dz dz; s = radius_i + radius_j; i < j; nothing is fused. A position
 /// that is not a number therefore overlaps with nothing.
 namespace lanescape::reference {
-
-using Vector = std::array<double, 3>;
 
 struct Overlap {
   std::size_t i = 0;  // i < j

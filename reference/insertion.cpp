@@ -3,89 +3,83 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace lanescape::reference {
 namespace {
 
-using Vector = std::array<double, 3>;
+/// One image of a particle at r, d the probe's position less r. Own images stand for half a pair and exert no force: d and -d
+/// cancel.
+void add_pair(Probe& sum, const Vector& d, const PairPotential& potential, bool own_image) {
+  const double r = std::sqrt(squared_length(d));
+  const PairValue pair = value(potential, r);
+  const double weight = own_image ? 0.5 : 1.0;
+  sum.energy += weight * pair.u;
+  sum.magnitude += weight * pair.u_magnitude;
+  if (own_image) return;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    sum.gradient[axis] += pair.slope / r * d[axis];
+    sum.gradient_magnitude[axis] += pair.slope_magnitude / r * std::abs(d[axis]);
+  }
+}
 
-// u, its absolute terms, and -u'(r)/r with its absolute terms, at r^2 below the cutoff.
-struct Pair {
-  double u, u_magnitude, pull, pull_magnitude;
-};
+void add_images(Probe& sum, const Vector& separation, const Vector& box, const PairPotential& potential, bool itself) {
+  const double r_c = cutoff(potential);
+  for_each_image(separation, box, r_c, ImageRule::all, [&](const Image& image) {
+    if (itself && image.nearest) return;
+    if (!(squared_length(image.separation) >= r_c * r_c)) add_pair(sum, image.separation, potential, itself);
+  });
+}
 
-Pair pair_at(const Mixture& mixture, std::size_t ab, double r_squared, Truncation truncation) {
-  const auto powers = [&](double squared) {
-    const double x = mixture.sigma[ab] * mixture.sigma[ab] / squared;
-    return Vector{4.0 * mixture.epsilon[ab] * std::pow(x, 6), 4.0 * mixture.epsilon[ab] * std::pow(x, 3), 0.0};
-  };
-  const auto [twelve, six, unused] = powers(r_squared);
-  const auto [twelve_c, six_c, unused_c] = powers(mixture.cutoff[ab] * mixture.cutoff[ab]);
-  const double shift = truncation == Truncation::shifted ? twelve_c - six_c : 0.0;
-  return {twelve - six - shift, twelve + six + std::abs(shift), (12.0 * twelve - 6.0 * six) / r_squared,
-          (12.0 * twelve + 6.0 * six) / r_squared};
+/// The sum over a, b of 2 pi N_a N_b / V times an integral grows by this with one more particle.
+void add_tail_growth(Probe& sum, int species, const Particles& fluid, const PairMixture& mixture) {
+  const std::vector<double> count = species_counts(fluid, mixture);
+  const double volume = fluid.box[0] * fluid.box[1] * fluid.box[2];
+  for (std::size_t b = 0; b < mixture.species; ++b) {
+    const PairPotential& potential = mixture.potential(species, static_cast<int>(b));
+    if (potential.truncation != Truncation::tail) continue;
+    const double pairs = 2.0 * count[b] + (b == static_cast<std::size_t>(species) ? 1.0 : 0.0);
+    const double energy = 2.0 * std::numbers::pi * pairs / volume * tail_integrals(potential).energy;
+    sum.energy += energy;
+    sum.magnitude += std::abs(energy);
+  }
 }
 
 }  // namespace
 
-Probe probe(const Vector& position, int species_of_probe, std::span<const double> positions, std::span<const int> species,
-            const Vector& box, const Mixture& mixture, Truncation truncation) {
+Probe probe(const Probed& probed, const Particles& fluid, const PairMixture& mixture) {
+  check(fluid, mixture);
+  if (probed.species < 0 || static_cast<std::size_t>(probed.species) >= mixture.species)
+    throw std::invalid_argument("probe: species " + std::to_string(probed.species) + " outside [0, " +
+                                std::to_string(mixture.species) + ")");
+  if (!(probed.diameter > 0.0))
+    throw std::invalid_argument("probe: diameter " + std::to_string(probed.diameter) + " is not positive");
   Probe sum;
-  const auto row = static_cast<std::size_t>(species_of_probe) * mixture.species;
-  const auto add_images = [&](const Vector& other, std::size_t ab, double weight, bool self) {
-    Vector nearest;
-    std::array<int, 3> reach;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double d = position[axis] - other[axis];
-      nearest[axis] = d - box[axis] * std::nearbyint(d / box[axis]);
-      reach[axis] = static_cast<int>(std::ceil(mixture.cutoff[ab] / box[axis] + 0.5));
-    }
-    for (int x = -reach[0]; x <= reach[0]; ++x)
-      for (int y = -reach[1]; y <= reach[1]; ++y)
-        for (int z = -reach[2]; z <= reach[2]; ++z) {
-          if (self && x == 0 && y == 0 && z == 0) continue;
-          const Vector d = {nearest[0] + x * box[0], nearest[1] + y * box[1], nearest[2] + z * box[2]};
-          const double r_squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-          if (r_squared >= mixture.cutoff[ab] * mixture.cutoff[ab]) continue;
-          const Pair pair = pair_at(mixture, ab, r_squared, truncation);
-          sum.energy += weight * pair.u;
-          sum.magnitude += weight * pair.u_magnitude;
-          for (std::size_t axis = 0; axis < 3 && !self; ++axis) {
-            sum.gradient[axis] -= pair.pull * d[axis];
-            sum.gradient_magnitude[axis] += pair.pull_magnitude * std::abs(d[axis]);
-          }
-        }
-  };
-  for (std::size_t j = 0; j < species.size(); ++j)
-    add_images({positions[3 * j], positions[3 * j + 1], positions[3 * j + 2]}, row + static_cast<std::size_t>(species[j]), 1.0,
-               false);
-  add_images(position, row + static_cast<std::size_t>(species_of_probe), 0.5, true);
-  if (truncation == Truncation::tail) {
-    // 2 pi N_a N_b / V times the integral of r^2 u beyond the cutoff, over a and b, grows with one more particle by this.
-    std::vector<double> count(mixture.species, 0.0);
-    for (const int s : species) count[static_cast<std::size_t>(s)] += 1.0;
-    for (std::size_t b = 0; b < mixture.species; ++b) {
-      const double r_c = mixture.cutoff[row + b], x = std::pow(mixture.sigma[row + b] / r_c, 6);
-      const double integral = 4.0 * mixture.epsilon[row + b] * std::pow(r_c, 3) * (x * x / 9.0 - x / 3.0);
-      const double pairs = 2.0 * count[b] + (b == static_cast<std::size_t>(species_of_probe) ? 1.0 : 0.0);
-      sum.energy += 2.0 * std::numbers::pi * pairs / (box[0] * box[1] * box[2]) * integral;
-      sum.magnitude += std::abs(2.0 * std::numbers::pi * pairs / (box[0] * box[1] * box[2]) * integral);
-    }
+  for (std::size_t j = 0; j < fluid.species.size(); ++j) {
+    PairPotential potential = mixture.potential(probed.species, fluid.species[j]);
+    if (!fluid.diameters.empty()) potential = between(potential, probed.diameter, fluid.diameters[j]);
+    Vector separation = probed.position;
+    for (std::size_t axis = 0; axis < 3; ++axis) separation[axis] -= fluid.positions[3 * j + axis];
+    add_images(sum, separation, fluid.box, potential, false);
   }
+  const PairPotential& own = mixture.potential(probed.species, probed.species);
+  add_images(sum, {0.0, 0.0, 0.0}, fluid.box, between(own, probed.diameter, probed.diameter), true);
+  add_tail_growth(sum, probed.species, fluid, mixture);
   return sum;
 }
 
 bool is_clear(const Vector& position, std::span<const double> clearances, std::span<const double> positions,
               std::span<const int> species, const Vector& box) {
   for (std::size_t j = 0; j < species.size(); ++j) {
-    double squared = 0.0;  // of the nearest image
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double d = position[axis] - positions[3 * j + axis], nearest = d - box[axis] * std::nearbyint(d / box[axis]);
-      squared += nearest * nearest;
-    }
     const double clearance = clearances[static_cast<std::size_t>(species[j])];
-    if (squared < clearance * clearance) return false;
+    Vector separation = position;
+    for (std::size_t axis = 0; axis < 3; ++axis) separation[axis] -= positions[3 * j + axis];
+    bool clear = true;
+    for_each_image(separation, box, clearance, ImageRule::minimum,
+                   [&](const Image& image) { clear = !(squared_length(image.separation) < clearance * clearance); });
+    if (!clear) return false;
   }
   return true;
 }

@@ -3,10 +3,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "reference/images.hpp"
+#include "reference/pair_potential.hpp"
+
 namespace lanescape::reference {
 namespace {
-
-using Vector = std::array<double, 3>;
 
 struct Site {
   std::size_t species;
@@ -156,22 +157,12 @@ StateNeighbours all_neighbours(std::span<const double> positions, const Vector& 
   StateNeighbours neighbours(n);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) {
-      Vector nearest, home;
-      std::array<int, 3> shells;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const double d = positions[3 * i + k] - positions[3 * j + k];
-        home[k] = box[k] * std::nearbyint(d / box[k]);
-        nearest[k] = d - home[k];
-        shells[k] = static_cast<int>(std::ceil(reach / box[k] + 0.5));
-      }
-      for (int x = -shells[0]; x <= shells[0]; ++x)
-        for (int y = -shells[1]; y <= shells[1]; ++y)
-          for (int z = -shells[2]; z <= shells[2]; ++z) {
-            const Vector shift = {x * box[0], y * box[1], z * box[2]};
-            const bool itself = i == j && x == 0 && y == 0 && z == 0;
-            if (itself || std::hypot(nearest[0] - shift[0], nearest[1] - shift[1], nearest[2] - shift[2]) >= reach) continue;
-            neighbours[i].push_back({j, {home[0] + shift[0], home[1] + shift[1], home[2] + shift[2]}});
-          }
+      Vector separation;
+      for (std::size_t k = 0; k < 3; ++k) separation[k] = positions[3 * i + k] - positions[3 * j + k];
+      for_each_image(separation, box, reach, ImageRule::all, [&](const Image& image) {
+        if (i == j && image.nearest) return;
+        if (squared_length(image.separation) < reach * reach) neighbours[i].push_back({j, image.shift});
+      });
     }
   return neighbours;
 }
@@ -238,13 +229,9 @@ ProbabilityFunction tanh_cascade(std::vector<double> thresholds, std::vector<dou
 }
 
 RadialFunction shifted_lennard_jones(double epsilon, double sigma, double cutoff) {
-  const auto unshifted = [=](double r) -> Radial {
-    const double sixth = std::pow(sigma / r, 6);
-    return {4.0 * epsilon * sixth * (sixth - 1.0), 24.0 * epsilon * sixth * (1.0 - 2.0 * sixth) / r};
-  };
-  return [=, shift = unshifted(cutoff).value](double r) -> Radial {
-    const Radial u = unshifted(r);
-    return {u.value - shift, u.slope};
+  return [potential = PairPotential{LennardJones{epsilon, sigma}, cutoff, Truncation::shifted}](double r) -> Radial {
+    const PairValue u = value(potential, r);
+    return {u.u, u.slope};
   };
 }
 

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "reference/vector.hpp"
+
 /// Interactions whose strength follows the states of the sites: each site is in state a with a probability p_a that depends on its
 /// surroundings ([P]). Scalar, written from the formulas, in two forms: three passes over pairs, and the nested one that the three
 /// passes replace.
@@ -46,7 +48,7 @@ struct StateSystem {
 /// Another site, or an image, near one: r_i - r_j - shift separates them.
 struct StateNeighbour {
   std::size_t site = 0;
-  std::array<double, 3> shift{};  // whole boxes [sigma]
+  Vector shift{};  // whole boxes [sigma]
 };
 /// All neighbours of each site: each pair from both ends, a site's own images with it.
 using StateNeighbours = std::vector<std::vector<StateNeighbour>>;
@@ -65,7 +67,7 @@ struct StateEvaluation {
 };
 
 /// Every neighbour within `reach`, through every image. O(N^2).
-StateNeighbours all_neighbours(std::span<const double> positions, const std::array<double, 3>& box, double reach);
+StateNeighbours all_neighbours(std::span<const double> positions, const Vector& box, double reach);
 
 /// Three passes: densities; energy, forces at fixed p and dU/dp; forces by way of the densities. Lists may hold what is out of
 /// range. positions: 3N, interleaved [sigma]; species: N. Throws std::invalid_argument where sizes do not fit.

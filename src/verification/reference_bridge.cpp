@@ -15,24 +15,29 @@ reference::Truncation translate(Truncation truncation) {
   return reference::Truncation::shifted;
 }
 
-reference::Mixture translate(const PairModel& model) {
-  reference::Mixture mixture{model.species.size(), model.epsilon, model.sigma, {}};
-  for (const double sigma : model.sigma) mixture.cutoff.push_back(model.cutoff * sigma);
+reference::PairMixture translate(const PairModel& model) {
+  reference::PairMixture mixture{model.species.size(), {}};
+  for (std::size_t ab = 0; ab < model.sigma.size(); ++ab) {
+    const reference::LennardJones form{model.epsilon[ab], model.sigma[ab]};
+    mixture.potentials.push_back({form, model.cutoff * model.sigma[ab], translate(model.truncation)});
+  }
   return mixture;
+}
+
+reference::Particles translate(const Configuration& configuration) {
+  return {configuration.positions, configuration.species, configuration.box.length, {}};
 }
 
 }  // namespace
 
 reference::Evaluation evaluate_reference(const PairModel& model, const Configuration& configuration) {
   const auto images = model.images == ImageRule::all ? reference::ImageRule::all : reference::ImageRule::minimum;
-  return reference::lennard_jones(configuration.positions, configuration.species, configuration.box.length, translate(model),
-                                  images, translate(model.truncation));
+  return reference::pair_sum(translate(configuration), translate(model), images);
 }
 
 reference::Probe probe_reference(const PairModel& model, const Configuration& fluid, const std::array<double, 3>& position,
                                  int species) {
-  return reference::probe(position, species, fluid.positions, fluid.species, fluid.box.length, translate(model),
-                          translate(model.truncation));
+  return reference::probe({position, species}, translate(fluid), translate(model));
 }
 
 }  // namespace lanescape

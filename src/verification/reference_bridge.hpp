@@ -5,14 +5,14 @@
 #include "configuration/configuration.hpp"
 #include "configuration/pair_model.hpp"
 #include "reference/insertion.hpp"
-#include "reference/lennard_jones.hpp"
+#include "reference/pair_sum.hpp"
 
 namespace lanescape {
 
-// What the scalar reference says about a configuration; results in the user's order of particles. O(N^2 images).
+// The scalar reference of a configuration, in the user's order of particles. O(N^2) times the number of images.
 reference::Evaluation evaluate_reference(const PairModel& model, const Configuration& configuration);
 
-// What a probe of a species feels in a fluid; all images.
+// The scalar reference of a probe of one species in a fluid; all images count.
 reference::Probe probe_reference(const PairModel& model, const Configuration& fluid, const std::array<double, 3>& position,
                                  int species);
 

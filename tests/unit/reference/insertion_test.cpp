@@ -5,18 +5,22 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <stdexcept>
 #include <vector>
+
+#include "reference/lennard_jones.hpp"
 
 namespace {
 
 using namespace lanescape::reference;
 
-using Vector = std::array<double, 3>;
-
 struct Fluid {
   std::vector<double> positions;
   std::vector<int> species;
+  std::vector<double> diameters;
   Vector box{3.3, 4.1, 5.2};
+
+  Particles particles() const { return {positions, species, box, diameters}; }
 };
 
 // Two species, anywhere but within 0.8 of another or of `hole`.
@@ -46,33 +50,52 @@ Fluid random_fluid(const Vector& hole) {
   return fluid;
 }
 
-const Mixture mixture{2, {1.0, 1.5, 1.5, 0.5}, {1.0, 0.8, 0.8, 0.88}, {2.5, 2.0, 2.0, 2.2}};
 const Vector hole{1.1, 3.9, 0.2};
 
+PairMixture kob_andersen(Truncation truncation) {
+  return lennard_jones_mixture({2, {1.0, 1.5, 1.5, 0.5}, {1.0, 0.8, 0.8, 0.88}, {2.5, 2.0, 2.0, 2.2}}, truncation);
+}
+
+void expect_energy_to_rise_by_the_probes(const Fluid& fluid, const Probed& probed, const PairMixture& mixture) {
+  Fluid with = fluid;
+  with.positions.insert(with.positions.end(), hole.begin(), hole.end());
+  with.species.push_back(probed.species);
+  if (!fluid.diameters.empty()) with.diameters.push_back(probed.diameter);
+  const Evaluation before = pair_sum(fluid.particles(), mixture, ImageRule::all);
+  const Evaluation after = pair_sum(with.particles(), mixture, ImageRule::all);
+  const Probe found = probe(probed, fluid.particles(), mixture);
+  EXPECT_NE(found.energy, 0.0);
+  EXPECT_NEAR(found.energy, after.energy - before.energy, 1e-14 * after.magnitude);
+  EXPECT_NEAR(found.magnitude, after.magnitude - before.magnitude, 1e-13 * after.magnitude);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    EXPECT_NEAR(found.gradient[axis], after.gradient[3 * fluid.species.size() + axis], 1e-14 * found.gradient_magnitude[axis]);
+}
+
 TEST(ReferenceProbe, EnergyIsWhatTheFluidsRisesByWhenTheParticleIsPutThere) {
-  const Fluid fluid = random_fluid(hole);
-  for (const Truncation truncation : {Truncation::shifted, Truncation::plain, Truncation::tail})
-    for (const int species : {0, 1}) {
-      Fluid with = fluid;
-      with.positions.insert(with.positions.end(), hole.begin(), hole.end());
-      with.species.push_back(species);
-      const Evaluation before = lennard_jones(fluid.positions, fluid.species, fluid.box, mixture, ImageRule::all, truncation);
-      const Evaluation after = lennard_jones(with.positions, with.species, with.box, mixture, ImageRule::all, truncation);
-      const Probe found = probe(hole, species, fluid.positions, fluid.species, fluid.box, mixture, truncation);
-      EXPECT_NEAR(found.energy, after.energy - before.energy, 1e-14 * after.magnitude);
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        EXPECT_NEAR(found.gradient[axis], after.gradient[3 * fluid.species.size() + axis], 1e-14 * found.gradient_magnitude[axis]);
-    }
+  for (const Truncation truncation : {Truncation::shifted, Truncation::plain, Truncation::tail, Truncation::smooth})
+    for (const int species : {0, 1})
+      expect_energy_to_rise_by_the_probes(random_fluid(hole), {hole, species}, kob_andersen(truncation));
+}
+
+TEST(ReferenceProbe, AProbeOfAnyFormAndDiameterIsThatParticle) {
+  Fluid fluid = random_fluid(hole);
+  const PairPotential yukawa{Yukawa{2.0, 1.0, 1.5}, 4.0, Truncation::tail};
+  expect_energy_to_rise_by_the_probes(fluid, {hole, 1}, {2, std::vector(4, yukawa)});
+  for (std::size_t j = 0; j < fluid.species.size(); ++j) fluid.diameters.push_back(0.7 + 0.03 * static_cast<double>(j));
+  fluid.box = {3.3, 4.1, 1.3};  // the probe meets its own images
+  for (const double diameter : {0.8, 1.4})
+    expect_energy_to_rise_by_the_probes(fluid, {hole, 1, diameter}, {2, std::vector(4, PairPotential{Polydisperse{}})});
 }
 
 TEST(ReferenceProbe, GradientIsThatOfTheEnergy) {
   const Fluid fluid = random_fluid(hole);
+  const PairMixture mixture = kob_andersen(Truncation::shifted);
   const auto energy = [&](std::size_t axis, double by) {
     Vector moved = hole;
     moved[axis] += by;
-    return probe(moved, 0, fluid.positions, fluid.species, fluid.box, mixture, Truncation::shifted).energy;
+    return probe({moved}, fluid.particles(), mixture).energy;
   };
-  const Probe here = probe(hole, 0, fluid.positions, fluid.species, fluid.box, mixture, Truncation::shifted);
+  const Probe here = probe({hole}, fluid.particles(), mixture);
   constexpr double h = 1e-4;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double difference =
@@ -81,10 +104,18 @@ TEST(ReferenceProbe, GradientIsThatOfTheEnergy) {
   }
 }
 
+TEST(ReferenceProbe, ASpeciesOrADiameterThatDoesNotFitIsRefused) {
+  const Fluid fluid = random_fluid(hole);
+  EXPECT_THROW(probe({hole, 2}, fluid.particles(), kob_andersen(Truncation::shifted)), std::invalid_argument);
+  EXPECT_THROW(probe({hole, -1}, fluid.particles(), kob_andersen(Truncation::shifted)), std::invalid_argument);
+  EXPECT_THROW(probe({hole, 0, 0.0}, fluid.particles(), kob_andersen(Truncation::shifted)), std::invalid_argument);
+}
+
 // One particle at the origin, and nothing else within reach.
 Probe beside_one(const Vector& p) {
-  return probe(p, 0, std::vector<double>{0.0, 0.0, 0.0}, std::vector<int>{0}, {20.0, 20.0, 20.0}, {1, {1.0}, {1.0}, {3.0}},
-               Truncation::plain);
+  const std::vector<double> origin{0.0, 0.0, 0.0};
+  const std::vector<int> species{0};
+  return probe({p}, {origin, species, {20.0, 20.0, 20.0}, {}}, {1, {{LennardJones{}, 3.0, Truncation::plain}}});
 }
 
 TEST(ReferenceUsher, TheFirstStepFromAnOverlapEndsAtContact) {

@@ -6,80 +6,27 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <random>
 #include <stdexcept>
-#include <string>
+
+#include "pair_systems.hpp"
 
 namespace {
 
 using namespace lanescape::reference;
-
-using Box = std::array<double, 3>;
-
-struct System {
-  std::vector<double> positions;
-  std::vector<int> species;
-  Box box;
-};
 
 constexpr std::array kImageRules{ImageRule::all, ImageRule::minimum};
 constexpr std::array kTruncations{Truncation::shifted, Truncation::plain, Truncation::tail};
 
 Mixture one_component(double cutoff = 2.5) { return {1, {1.0}, {1.0}, {cutoff}}; }
 
-Mixture kob_andersen() {
-  return {2, {1.0, 1.5, 1.5, 0.5}, {1.0, 0.8, 0.8, 0.88}, {2.5, 2.0, 2.0, 2.2}};
-}
-
-/// nx x ny x nz cells of a face-centred lattice, every coordinate displaced by at most `rattle`; each fifth particle
-/// is B where there are two species.
-System rattled_fcc(Box cells, double constant, double rattle, std::size_t species_count, unsigned seed) {
-  std::mt19937 random(seed);
-  const auto uniform = [&] { return 2.0 * static_cast<double>(random()) / 4294967295.0 - 1.0; };
-  System system;
-  for (std::size_t axis = 0; axis < 3; ++axis) system.box[axis] = cells[axis] * constant;
-  const std::array<Box, 4> basis{{{0.0, 0.0, 0.0}, {0.0, 0.5, 0.5}, {0.5, 0.0, 0.5}, {0.5, 0.5, 0.0}}};
-  for (int x = 0; x < cells[0]; ++x)
-    for (int y = 0; y < cells[1]; ++y)
-      for (int z = 0; z < cells[2]; ++z)
-        for (const Box& site : basis) {
-          const Box corner{double(x), double(y), double(z)};
-          for (std::size_t axis = 0; axis < 3; ++axis)
-            system.positions.push_back(constant * (corner[axis] + site[axis]) + rattle * uniform());
-          system.species.push_back(species_count == 2 && system.species.size() % 5 == 4 ? 1 : 0);
-        }
-  return system;
-}
+Mixture kob_andersen() { return {2, {1.0, 1.5, 1.5, 0.5}, {1.0, 0.8, 0.8, 0.88}, {2.5, 2.0, 2.0, 2.2}}; }
 
 Evaluation evaluate(const System& system, const Mixture& mixture, ImageRule images, Truncation truncation) {
   return lennard_jones(system.positions, system.species, system.box, mixture, images, truncation);
 }
 
-System pair(double r, Box box = {20.0, 20.0, 20.0}) { return {{0.0, 0.0, 0.0, r, 0.0, 0.0}, {0, 0}, box}; }
-
 double u(double r, double epsilon = 1.0, double sigma = 1.0) {
   return 4.0 * epsilon * (std::pow(sigma / r, 12) - std::pow(sigma / r, 6));
-}
-
-double largest(const std::vector<double>& values) {
-  double result = 0.0;
-  for (const double value : values) result = std::max(result, std::abs(value));
-  return result;
-}
-
-void expect_same(const Evaluation& a, const Evaluation& b) {
-  EXPECT_NEAR(a.energy, b.energy, 1e-13 * a.magnitude);
-  EXPECT_NEAR(a.virial, b.virial, 1e-12 * a.magnitude);
-  for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(a.virial_tensor[k], b.virial_tensor[k], 1e-12 * a.magnitude) << k;
-  ASSERT_EQ(a.gradient.size(), b.gradient.size());
-  const double scale = largest(a.gradient_magnitude);
-  for (std::size_t k = 0; k < a.gradient.size(); ++k) EXPECT_NEAR(a.gradient[k], b.gradient[k], 1e-13 * scale) << k;
-}
-
-/// Five-point difference of f at 0: error h^4 f^(5)/30 from truncation, about 1e-16 f/h from rounding.
-template <class Function>
-double derivative(const Function& f, double h) {
-  return (8.0 * (f(h) - f(-h)) - (f(2.0 * h) - f(-2.0 * h))) / (12.0 * h);
 }
 
 TEST(ReferenceLennardJones, NoParticlesHaveNoEnergy) {
@@ -94,16 +41,15 @@ TEST(ReferenceLennardJones, NoParticlesHaveNoEnergy) {
     }
 }
 
-TEST(ReferenceLennardJones, OneParticleInALargeBoxHasNoEnergyAndNoGradient) {
+TEST(ReferenceLennardJones, OneParticleInALargeVectorHasNoEnergyAndNoGradient) {
   for (const ImageRule images : kImageRules) {
-    const Evaluation result = evaluate({{1.0, -7.0, 3.0}, {0}, {9.0, 9.0, 9.0}}, one_component(), images,
-                                       Truncation::shifted);
+    const Evaluation result = evaluate({{1.0, -7.0, 3.0}, {0}, {9.0, 9.0, 9.0}}, one_component(), images, Truncation::shifted);
     EXPECT_EQ(result.energy, 0.0);
     EXPECT_EQ(result.gradient, std::vector<double>(3, 0.0));
   }
 }
 
-TEST(ReferenceLennardJones, OneParticleInASmallBoxMeetsItsOwnImagesUnlessTheRuleIsMinimumImage) {
+TEST(ReferenceLennardJones, OneParticleInASmallVectorMeetsItsOwnImagesUnlessTheRuleIsMinimumImage) {
   const System alone{{0.3, 0.2, 0.1}, {0}, {1.5, 10.0, 10.0}};
   const Evaluation all = evaluate(alone, one_component(), ImageRule::all, Truncation::plain);
   EXPECT_NEAR(all.energy, u(1.5), 1e-15);  // two images, half each
@@ -113,15 +59,14 @@ TEST(ReferenceLennardJones, OneParticleInASmallBoxMeetsItsOwnImagesUnlessTheRule
 }
 
 TEST(ReferenceLennardJones, TwoParticlesAtTheMinimumHaveEnergyMinusEpsilon) {
-  const Evaluation result =
-      evaluate(pair(std::pow(2.0, 1.0 / 6.0)), one_component(), ImageRule::all, Truncation::plain);
+  const Evaluation result = evaluate(two_particles(std::pow(2.0, 1.0 / 6.0)), one_component(), ImageRule::all, Truncation::plain);
   EXPECT_NEAR(result.energy, -1.0, 1e-15);
   EXPECT_NEAR(result.virial, 0.0, 1e-14);
   EXPECT_NEAR(largest(result.gradient), 0.0, 1e-14);
 }
 
 TEST(ReferenceLennardJones, TwoParticlesAtSigmaRepelWithForceTwentyFour) {
-  const Evaluation result = evaluate(pair(1.0), one_component(), ImageRule::all, Truncation::plain);
+  const Evaluation result = evaluate(two_particles(1.0), one_component(), ImageRule::all, Truncation::plain);
   EXPECT_DOUBLE_EQ(result.energy, 0.0);
   EXPECT_DOUBLE_EQ(result.magnitude, 8.0);
   EXPECT_DOUBLE_EQ(result.virial, 24.0);
@@ -132,7 +77,7 @@ TEST(ReferenceLennardJones, TwoParticlesAtSigmaRepelWithForceTwentyFour) {
 }
 
 TEST(ReferenceLennardJones, PairsOfTwoSpeciesUseTheirOwnParameters) {
-  System system = pair(0.9);
+  System system = two_particles(0.9);
   const std::array<std::array<double, 2>, 3> epsilon_sigma{{{1.0, 1.0}, {1.5, 0.8}, {0.5, 0.88}}};
   for (int a = 0; a < 2; ++a)
     for (int b = 0; b < 2; ++b) {
@@ -147,7 +92,7 @@ TEST(ReferenceLennardJones, PairsOfTwoSpeciesUseTheirOwnParameters) {
 TEST(ReferenceLennardJones, TheVirialTensorOfOnePairIsTheOuterProductOfSeparationAndForce) {
   const System system{{0.1, 0.2, 0.3, 0.9, -0.4, 0.8}, {0, 0}, {20.0, 20.0, 20.0}};
   const Evaluation result = evaluate(system, one_component(), ImageRule::all, Truncation::plain);
-  const Box d{-0.8, 0.6, -0.5};
+  const Vector d{-0.8, 0.6, -0.5};
   const std::array<std::array<std::size_t, 2>, 6> voigt{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
   for (std::size_t k = 0; k < 6; ++k)
     EXPECT_NEAR(result.virial_tensor[k], -d[voigt[k][0]] * result.gradient[voigt[k][1]], 1e-13) << k;
@@ -156,7 +101,7 @@ TEST(ReferenceLennardJones, TheVirialTensorOfOnePairIsTheOuterProductOfSeparatio
 TEST(ReferenceLennardJones, TheShiftMakesTheEnergyContinuousAtTheCutoff) {
   for (const double cutoff : {1.3, 2.5}) {
     const auto energy = [&](double r, Truncation truncation) {
-      return evaluate(pair(r), one_component(cutoff), ImageRule::all, truncation).energy;
+      return evaluate(two_particles(r), one_component(cutoff), ImageRule::all, truncation).energy;
     };
     const double below = cutoff * (1.0 - 1e-12);
     EXPECT_NEAR(energy(below, Truncation::shifted), 0.0, 1e-10);
@@ -166,9 +111,9 @@ TEST(ReferenceLennardJones, TheShiftMakesTheEnergyContinuousAtTheCutoff) {
 }
 
 TEST(ReferenceLennardJones, APairExactlyAtTheCutoffDoesNotInteract) {
-  const Evaluation at = evaluate(pair(2.5), one_component(), ImageRule::all, Truncation::plain);
+  const Evaluation at = evaluate(two_particles(2.5), one_component(), ImageRule::all, Truncation::plain);
   EXPECT_EQ(at.magnitude, 0.0);
-  const Evaluation below = evaluate(pair(std::nextafter(2.5, 0.0)), one_component(), ImageRule::all, Truncation::plain);
+  const Evaluation below = evaluate(two_particles(std::nextafter(2.5, 0.0)), one_component(), ImageRule::all, Truncation::plain);
   EXPECT_GT(below.magnitude, 0.0);
 }
 
@@ -204,8 +149,8 @@ TEST(ReferenceLennardJones, TheGradientsOfAllParticlesAddUpToZero) {
 }
 
 /// Energy with box, positions and, where asked, the cutoff stretched by 1 + strain along the chosen axes.
-double strained_energy(const System& system, Mixture mixture, Truncation truncation, std::array<bool, 3> axes,
-                       double strain, bool stretch_cutoff) {
+double strained_energy(const System& system, Mixture mixture, Truncation truncation, std::array<bool, 3> axes, double strain,
+                       bool stretch_cutoff) {
   System stretched = system;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (axes[axis]) {
@@ -221,9 +166,7 @@ TEST(ReferenceLennardJones, TheShiftedVirialIsMinusThreeVTimesTheVolumeDerivativ
   for (const System& system : {rattled_fcc({2, 2, 2}, 1.6, 0.1, 2, 5), rattled_fcc({1, 1, 1}, 1.5, 0.1, 2, 6)}) {
     const Evaluation result = evaluate(system, kob_andersen(), ImageRule::all, Truncation::shifted);
     const auto energy = [&](std::array<bool, 3> axes) {
-      return [&, axes](double strain) {
-        return strained_energy(system, kob_andersen(), Truncation::shifted, axes, strain, false);
-      };
+      return [&, axes](double strain) { return strained_energy(system, kob_andersen(), Truncation::shifted, axes, strain, false); };
     };
     EXPECT_NEAR(result.virial, -derivative(energy({true, true, true}), 3e-5), 1e-7 * result.magnitude);
     EXPECT_NEAR(result.virial_tensor[0], -derivative(energy({true, false, false}), 3e-5), 1e-7 * result.magnitude);
@@ -232,7 +175,7 @@ TEST(ReferenceLennardJones, TheShiftedVirialIsMinusThreeVTimesTheVolumeDerivativ
   }
 }
 
-TEST(ReferenceLennardJones, ThePlainAndTailVirialsAreVolumeDerivativesWhenTheCutoffStretchesWithTheBox) {
+TEST(ReferenceLennardJones, ThePlainAndTailVirialsAreVolumeDerivativesWhenTheCutoffStretchesWithTheVector) {
   // No pair then crosses the cutoff, so the jump of u there stays out, in the sum and in the tail alike.
   const System system = rattled_fcc({2, 2, 2}, 1.6, 0.1, 2, 7);
   for (const Truncation truncation : {Truncation::plain, Truncation::tail}) {
@@ -246,14 +189,13 @@ TEST(ReferenceLennardJones, ThePlainAndTailVirialsAreVolumeDerivativesWhenTheCut
 
 TEST(ReferenceLennardJones, TheVirialIsTheTraceOfItsTensor) {
   for (const Truncation truncation : kTruncations) {
-    const Evaluation result =
-        evaluate(rattled_fcc({2, 1, 1}, 1.6, 0.1, 2, 8), kob_andersen(), ImageRule::all, truncation);
+    const Evaluation result = evaluate(rattled_fcc({2, 1, 1}, 1.6, 0.1, 2, 8), kob_andersen(), ImageRule::all, truncation);
     const auto& w = result.virial_tensor;
     EXPECT_NEAR(result.virial, w[0] + w[1] + w[2], 1e-13 * result.magnitude);
   }
 }
 
-TEST(ReferenceLennardJones, BothImageRulesAgreeWhenTheCutoffIsAtMostHalfTheBox) {
+TEST(ReferenceLennardJones, BothImageRulesAgreeWhenTheCutoffIsAtMostHalfTheVector) {
   System system = rattled_fcc({4, 3, 3}, 1.7, 0.15, 2, 9);
   system.positions[0] += 3.0 * system.box[0];  // unwrapped, as along a path
   system.positions[4] -= 2.0 * system.box[1];
@@ -263,7 +205,7 @@ TEST(ReferenceLennardJones, BothImageRulesAgreeWhenTheCutoffIsAtMostHalfTheBox) 
                 evaluate(system, kob_andersen(), ImageRule::minimum, truncation));
 }
 
-TEST(ReferenceLennardJones, TheImageRulesDifferWhenTheCutoffExceedsHalfTheBox) {
+TEST(ReferenceLennardJones, TheImageRulesDifferWhenTheCutoffExceedsHalfTheVector) {
   const System system = rattled_fcc({3, 3, 3}, std::cbrt(4.0 / 1.2), 0.1, 2, 10);  // 108 particles, L = 4.4814
   EXPECT_NEAR(system.box[0], 4.4814, 5e-5);
   const Evaluation all = evaluate(system, kob_andersen(), ImageRule::all, Truncation::shifted);
@@ -273,14 +215,13 @@ TEST(ReferenceLennardJones, TheImageRulesDifferWhenTheCutoffExceedsHalfTheBox) {
 }
 
 TEST(ReferenceLennardJones, MinimumImageTakesOneImageEvenWhenMoreAreWithinTheCutoff) {
-  const System system = pair(0.9, {2.0, 20.0, 20.0});
+  const System system = two_particles(0.9, {2.0, 20.0, 20.0});
   EXPECT_NEAR(evaluate(system, one_component(), ImageRule::minimum, Truncation::plain).energy, u(0.9), 1e-13);
   // 0.9 - 2 and the own images of both particles at 2 are within 2.5 as well, 0.9 + 2 is not.
-  EXPECT_NEAR(evaluate(system, one_component(), ImageRule::all, Truncation::plain).energy,
-              u(0.9) + u(1.1) + 2.0 * u(2.0), 1e-13);
+  EXPECT_NEAR(evaluate(system, one_component(), ImageRule::all, Truncation::plain).energy, u(0.9) + u(1.1) + 2.0 * u(2.0), 1e-13);
 }
 
-TEST(ReferenceLennardJones, MovingAParticleByWholeBoxesChangesNothing) {
+TEST(ReferenceLennardJones, MovingAParticleByWholeVectoresChangesNothing) {
   const System system = rattled_fcc({1, 1, 2}, 1.6, 0.1, 2, 11);
   System moved = system;
   for (std::size_t k = 0; k < moved.positions.size(); ++k)
@@ -289,7 +230,7 @@ TEST(ReferenceLennardJones, MovingAParticleByWholeBoxesChangesNothing) {
               evaluate(moved, kob_andersen(), ImageRule::all, Truncation::tail));
 }
 
-TEST(ReferenceLennardJones, ASupercellOfATinyBoxHasEightTimesItsEnergyAndTheSameGradient) {
+TEST(ReferenceLennardJones, ASupercellOfATinyVectorHasEightTimesItsEnergyAndTheSameGradient) {
   const System cell = rattled_fcc({1, 1, 1}, 1.5, 0.1, 2, 12);  // cutoff 2.5 is more than three half boxes
   System supercell;
   for (std::size_t axis = 0; axis < 3; ++axis) supercell.box[axis] = 2.0 * cell.box[axis];
@@ -310,8 +251,7 @@ TEST(ReferenceLennardJones, ASupercellOfATinyBoxHasEightTimesItsEnergyAndTheSame
     eight.magnitude *= 8.0;
     for (double& component : eight.virial_tensor) component *= 8.0;
     eight.gradient.clear();
-    for (int copy = 0; copy < 8; ++copy)
-      eight.gradient.insert(eight.gradient.end(), once.gradient.begin(), once.gradient.end());
+    for (int copy = 0; copy < 8; ++copy) eight.gradient.insert(eight.gradient.end(), once.gradient.begin(), once.gradient.end());
     eight.gradient_magnitude.assign(eight.gradient.size(), largest(once.gradient_magnitude));
     expect_same(eight, evaluate(supercell, kob_andersen(), ImageRule::all, truncation));
   }
@@ -374,7 +314,7 @@ TEST(ReferenceLennardJones, ThePerfectKobAndersenLatticeOfEqualParticlesHasTheLa
 }
 
 TEST(ReferenceLennardJones, APositionThatIsNotANumberShowsInTheResult) {
-  System system = pair(1.2);
+  System system = two_particles(1.2);
   system.positions[1] = std::numeric_limits<double>::quiet_NaN();
   for (const ImageRule images : kImageRules)
     EXPECT_TRUE(std::isnan(evaluate(system, one_component(), images, Truncation::shifted).energy));
@@ -384,18 +324,18 @@ TEST(ReferenceLennardJones, InputThatDoesNotFitIsRefused) {
   const auto call = [](const System& system, const Mixture& mixture) {
     evaluate(system, mixture, ImageRule::all, Truncation::shifted);
   };
-  System system = pair(1.2);
+  System system = two_particles(1.2);
   system.species.push_back(0);
   EXPECT_THROW(call(system, one_component()), std::invalid_argument);
-  system = pair(1.2);
+  system = two_particles(1.2);
   system.species[1] = 1;
   EXPECT_THROW(call(system, one_component()), std::invalid_argument);
   system.species[1] = -1;
   EXPECT_THROW(call(system, one_component()), std::invalid_argument);
-  EXPECT_THROW(call(pair(1.2, {10.0, 0.0, 10.0}), one_component()), std::invalid_argument);
+  EXPECT_THROW(call(two_particles(1.2, {10.0, 0.0, 10.0}), one_component()), std::invalid_argument);
   Mixture mixture = one_component();
   mixture.cutoff.clear();
-  EXPECT_THROW(call(pair(1.2), mixture), std::invalid_argument);
+  EXPECT_THROW(call(two_particles(1.2), mixture), std::invalid_argument);
 }
 
 }  // namespace
