@@ -29,7 +29,7 @@ function(lanescape_add_kernels target)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
       # GCC 12's own AVX-512 headers set a vector from itself (GCC bug 105593).
       # The notes on passing wide vectors concern calls between objects, of which these have none.
-      target_compile_options(lanescape_kernels_${isa} PRIVATE -Wno-uninitialized -Wno-maybe-uninitialized -Wno-psabi)
+      target_compile_options(lanescape_kernels_${isa} PRIVATE -Wno-uninitialized -Wno-maybe-uninitialized -Wno-psabi -Wno-ignored-attributes)
     endif()
     if(LANESCAPE_SANITIZE)
       # Instrumented, the forcibly inlined row loops take the compiler a quarter of an hour. The parity tests check the kernels;

@@ -5,23 +5,12 @@
 
 // Every kernel of one instruction set, for table.cpp. Documented at KernelTable's members.
 namespace lanescape::kernels::LANESCAPE_ISA {
+#define LANESCAPE_PAIR_FORM(name) extern const PairKernels pair_##name;
+LANESCAPE_PAIR_FORMS(LANESCAPE_PAIR_FORM)
+#undef LANESCAPE_PAIR_FORM
 
-double lj_energy(const LjInput& in) noexcept;
-void lj_gradient(const LjInput& in, double* gradient, PairOutput& out) noexcept;
-void lj_stress(const LjInput& in, double* gradient, PairOutput& out) noexcept;
-
-double lj_list_energy(const LjListInput& in) noexcept;
-void lj_list_force(const LjListInput& in, double* gradient) noexcept;
-void lj_list_gradient(const LjListInput& in, double* gradient, PairOutput& out) noexcept;
-void lj_list_stress(const LjListInput& in, double* gradient, PairOutput& out) noexcept;
-double lj_list_energy_mixed(const LjListInput& in) noexcept;
-void lj_list_force_mixed(const LjListInput& in, double* gradient) noexcept;
-void lj_list_gradient_mixed(const LjListInput& in, double* gradient, PairOutput& out) noexcept;
 std::size_t points_within(const PointGrid& grid, const NeighbourQuery& query, std::uint32_t* out, std::size_t capacity) noexcept;
-void lj_probe(const ProbeInput& in, const double* position, ProbeOutput& out) noexcept;
-void lj_probe_energies(const ProbeInput& in, const double* positions, std::size_t count, double* energies) noexcept;
-std::size_t lj_probe_first_clear(const ProbeInput& in, const double* clearances, const double* positions,
-                                 std::size_t count) noexcept;
+std::size_t probe_first_clear(const ProbeInput& in, const double* clearances, const double* positions, std::size_t count) noexcept;
 
 void state_densities(const StateDensityInput& in, double* densities) noexcept;
 double state_lj_energy(const StateLjInput& in) noexcept;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pair_kernels.hpp"
 #include "views.hpp"
 
 namespace lanescape::kernels {
@@ -9,38 +10,23 @@ struct KernelTable {
   const char* name;
   std::size_t lanes;  // doubles per vector
 
-  // Lennard-Jones mixtures over all pairs. The three give bit-equal energies and virials.
-  double (*lj_energy)(const LjInput&) noexcept;
-  void (*lj_gradient)(const LjInput&, double* gradient, PairOutput&) noexcept;
-  void (*lj_stress)(const LjInput&, double* gradient, PairOutput&) noexcept;
+  // Pair potentials, by PairForm.
+  const PairKernels* pair[pair_form_count];
+  const PairKernels& pair_kernels(PairForm form) const noexcept { return *pair[static_cast<std::size_t>(form)]; }
 
-  // The same over a neighbour list, for rows [0, row_count); energy and virial are these rows' share: half of each of their pairs.
-  // `gradient` gets a point per row. The four agree to the bit in what they have in common.
-  double (*lj_list_energy)(const LjListInput&) noexcept;
-  void (*lj_list_force)(const LjListInput&, double* gradient) noexcept;
-  void (*lj_list_gradient)(const LjListInput&, double* gradient, PairOutput&) noexcept;
-  void (*lj_list_stress)(const LjListInput&, double* gradient, PairOutput&) noexcept;
-  // The same in mixed precision, which needs NeighbourRows::fixed_points: pairs in single precision, sums over all but the lanes of
-  // one row in double. A pair nearer to the cutoff than 2^-22 of it may or may not count. The three agree to the bit in what they
-  // have in common.
-  double (*lj_list_energy_mixed)(const LjListInput&) noexcept;
-  void (*lj_list_force_mixed)(const LjListInput&, double* gradient) noexcept;
-  void (*lj_list_gradient_mixed)(const LjListInput&, double* gradient, PairOutput&) noexcept;
   // Places of all points of a grid within reach of a position, and of some that are up to a millionth of the grid's length further,
   // in rising order; their number, or capacity + 1 where there may be no room for all of them and a vector more.
   std::size_t (*points_within)(const PointGrid&, const NeighbourQuery&, std::uint32_t* out, std::size_t capacity) noexcept;
 
-  // What a Lennard-Jones particle would feel at a position; the energies of many, x0 y0 z0 x1 ..., to the same bits.
-  void (*lj_probe)(const ProbeInput&, const double* position, ProbeOutput&) noexcept;
-  void (*lj_probe_energies)(const ProbeInput&, const double* positions, std::size_t count, double* energies) noexcept;
   // The first of these positions with no point of any species nearer than that species' clearance; their number if there is none.
-  std::size_t (*lj_probe_first_clear)(const ProbeInput&, const double* clearances, const double* positions,
-                                      std::size_t count) noexcept;
+  std::size_t (*probe_first_clear)(const ProbeInput&, const double* clearances, const double* positions,
+                                   std::size_t count) noexcept;
   // Interactions that follow the states of sites, over neighbour lists, for rows [0, row_count). Densities sum c w of each row.
   // `near` and its lengths may stand in for those of the list from then on.
   void (*state_densities)(const StateDensityInput&, double* densities) noexcept;
   // At fixed probabilities: `slopes` gets dU/dp, row_count x states (each pair counts in full), `gradient` a point per row, energy
-  // and virial are these rows' share. The three agree to the bit in what they have in common; with one state they and lj_list_* do.
+  // and virial are these rows' share. The three agree to the bit in what they have in common; with one state they and the
+  // Lennard-Jones list kernels do.
   double (*state_lj_energy)(const StateLjInput&) noexcept;
   void (*state_lj_gradient)(const StateLjInput&, double* gradient, double* slopes, PairOutput&) noexcept;
   void (*state_lj_stress)(const StateLjInput&, double* gradient, double* slopes, PairOutput&) noexcept;

@@ -576,7 +576,9 @@ inline FloatMask less(FloatVector a, FloatVector b) noexcept { return _mm512_cmp
 inline FloatMask both(FloatMask a, FloatMask b) noexcept { return _kand_mask16(a, b); }
 inline FloatVector multiply_add(FloatVector a, FloatVector b, FloatVector c) noexcept { return _mm512_fmadd_ps(a, b, c); }
 inline FloatVector masked_quotient(FloatMask m, FloatVector a, FloatVector b) noexcept { return _mm512_maskz_div_ps(m, a, b); }
-inline FloatVector masked_increment(FloatVector sum, FloatMask m) noexcept { return _mm512_mask_add_ps(sum, m, sum, _mm512_set1_ps(1.0F)); }
+inline FloatVector masked_increment(FloatVector sum, FloatMask m) noexcept {
+  return _mm512_mask_add_ps(sum, m, sum, _mm512_set1_ps(1.0F));
+}
 
 #elif defined(LANESCAPE_ISA_AVX2)
 

@@ -1,5 +1,5 @@
 // Local densities, and the forces that act by way of them: the first and the last pass over pairs of a state-probability
-// interaction. As in lj_list.cpp each pair is met from both ends and only the row's own results are written.
+// interaction. As in loops/list.hpp each pair is met from both ends and only the row's own results are written.
 //
 // A switching function is a cubic spline in r^2: no root, no division, and 2 dw/d(r^2) is w'/r. Any function will do, and the force
 // is the exact derivative of the density that is summed, so that energy is conserved to rounding.
@@ -37,7 +37,7 @@ LANESCAPE_INLINE void pack_vector(const double* points, const std::uint32_t* off
   prefetch(offsets + list_prefetch);
   Displacement d;
   gather_points(points, offsets, d.x, d.y, d.z);
-  const Vector r2 = squared_length({d.x - row.x, d.y - row.y, d.z - row.z});
+  const Vector r2 = squared_length(Displacement{d.x - row.x, d.y - row.y, d.z - row.z});
   Mask in_reach = less(r2, reach_squared);
   if constexpr (masked) in_reach = both(in_reach, valid);
   const unsigned chosen = bits(in_reach);
@@ -139,10 +139,10 @@ LANESCAPE_INLINE void force_segment(const double* points, const std::uint32_t* o
       const Vector back = slope_over_r(theirs, r2, both(less(r2, theirs.cutoff_squared), valid));
       slope = multiply_add(lambda * multipliers.back, back, multipliers.own * mine);
     }
-    const Vector pull = broadcast(0.0) - slope;
-    sums.g = {multiply_add(pull, d.x, sums.g.x), multiply_add(pull, d.y, sums.g.y), multiply_add(pull, d.z, sums.g.z)};
-    sums.virial = multiply_add(pull, r2, sums.virial);
-    if constexpr (with_tensor) add_tensor(totals, d, pull);
+    const Vector w = broadcast(0.0) - slope;
+    sums.g = {multiply_add(w, d.x, sums.g.x), multiply_add(w, d.y, sums.g.y), multiply_add(w, d.z, sums.g.z)};
+    sums.virial = multiply_add(w, r2, sums.virial);
+    if constexpr (with_tensor) add_tensor(totals, d, w);
   }
   row_sums = sums;
 }
@@ -155,7 +155,7 @@ void sum_forces(const StateDensityForceInput& in, double* gradient, PairOutput& 
   const double* slopes = in.slopes;
   StateTotals totals;
   for (std::size_t k = 0; k < list.row_count; ++k) {
-    const Displacement row = row_at(list, k);
+    const Displacement row = row_position(list, k);
     const double lambda = list.points[list.rows[k] + 3];
     const Vector zero = broadcast(0.0);
     RowSums sums{{zero, zero, zero}, zero};
@@ -189,7 +189,7 @@ void state_densities(const StateDensityInput& in, double* densities) noexcept {
   std::uint32_t* near_length = in.near_lengths;
   const Switching w = broadcast_switching(in.switching);
   for (std::size_t k = 0; k < list.row_count; ++k) {
-    const Displacement row = row_at(list, k);
+    const Displacement row = row_position(list, k);
     double density = 0.0;
     for (std::size_t s = 0; s < list.species_count; ++s, ++length, ++near_length) {
       near.count = 0;

@@ -1,16 +1,17 @@
-// Lennard-Jones potentials between states, at fixed probabilities, over neighbour lists as in lj_list.cpp.
+// Lennard-Jones potentials between states, at fixed probabilities, over neighbour lists as in loops/list.hpp.
 //
 // All pairs of states share powers of one distance. Summed over a row's neighbours with the probability of each of their states,
 // r^-6, r^-12 and 1 say all of energy and dU/dp, once per row; and the force on a pair needs one c12 and one c6, averaged over the
 // states of both. Two states then cost a few multiplications more than one.
 
+#include "forms/lennard_jones.hpp"
 #include "kernel_declarations.hpp"
 #include "state_pair.hpp"
 
 namespace lanescape::kernels::LANESCAPE_ISA {
 namespace {
 
-enum class Output { energy, gradient, stress };
+using PowerSums = LennardJones<Vector>::Sums;
 
 // Of one row with the neighbours of one species: 12 c12 and 6 c6 for each state of a neighbour, averaged over the row's.
 struct Averaged {
@@ -35,7 +36,7 @@ LANESCAPE_INLINE void add_states(StateSums& sums, const NeighbourStates& states,
     for (std::size_t b = 0; b < 4; ++b) add_weighted(sums.of[b], states.p[b], rinv6, in_range);
   } else {
     if constexpr (n == StatesAtOnce::two) add_weighted(sums.of[0], states.p[0], rinv6, in_range);
-    add_powers(sums.of[count_of(n) - 1], rinv6, in_range);
+    LennardJones<Vector>::add_powers(sums.of[count_of(n) - 1], rinv6, in_range);
   }
 }
 
@@ -91,7 +92,7 @@ LANESCAPE_INLINE Averaged average_over_row(const StateLjPair* pairs, const doubl
 }
 
 // What the sums of one species' neighbours say: energy, virial and, where wanted, dU/dp of each of the row's states. With one state
-// as in lj_list.cpp, to the bit; with more the lanes are added up first, which leaves less to do.
+// as in loops/list.hpp, to the bit; with more the lanes are added up first, which leaves less to do.
 LANESCAPE_INLINE void add_one_state(const StateLjPair& u, double p, const Averaged& averaged, const PowerSums& s, double* slopes,
                                     StateTotals& totals) {
   totals.virial += multiply_add(averaged.twelve_c12[0], s.rinv12, broadcast(0.0) - averaged.six_c6[0] * s.rinv6);
@@ -136,14 +137,14 @@ LANESCAPE_INLINE void one_segment(const StateLjInput& in, std::size_t species, c
     of_pairs.six_c6[0] = averaged.six_c6[0] - averaged.six_c6[1];
   }
   StateSums sums;
-  Displacement pulled = g;
+  Displacement sum = g;
   std::size_t j = 0;
   for (; j + lanes <= count; j += lanes)
-    pair_vector<output, n, false>(points, quads, offsets + j, row, cutoff_squared, of_pairs, {}, sums, pulled, totals);
+    pair_vector<output, n, false>(points, quads, offsets + j, row, cutoff_squared, of_pairs, {}, sums, sum, totals);
   if (j < count)
     pair_vector<output, n, true>(points, quads, offsets + j, row, cutoff_squared, of_pairs,
-                                 lanes_below(static_cast<std::ptrdiff_t>(count - j)), sums, pulled, totals);
-  g = pulled;
+                                 lanes_below(static_cast<std::ptrdiff_t>(count - j)), sums, sum, totals);
+  g = sum;
   if constexpr (n == StatesAtOnce::two) {
     const PowerSums &one = sums.of[0], all = sums.of[1];
     sums.of[1] = {all.rinv6 - one.rinv6, all.rinv12 - one.rinv12, all.count - one.count};
@@ -162,7 +163,7 @@ void all_rows(const StateLjInput& in, double* gradient, double* slopes, StateTot
   const std::uint32_t* length = list.lengths;
   const Vector zero = broadcast(0.0);
   for (std::size_t k = 0; k < list.row_count; ++k, length += list.species_count) {
-    const Displacement row = row_at(list, k);
+    const Displacement row = row_position(list, k);
     Displacement g{zero, zero, zero};
     double* slope = slopes ? slopes + k * states : nullptr;
     for (std::size_t a = 0; slope && a < states; ++a) slope[a] = 0.0;

@@ -1,11 +1,9 @@
 #pragma once
 
-#include "lj_pair.hpp"
+#include "loops/neighbour_rows.hpp"
 
 // What the kernels of state-probability interactions share.
 namespace lanescape::kernels::LANESCAPE_ISA {
-
-constexpr std::size_t list_prefetch = 192;  // as in lj_list.cpp
 
 // How many states of its neighbours a kernel sums over at once: the probability of one is 1, of two the first comes with the point,
 // of more four come from a record of their own, and again for each four there are.
@@ -63,13 +61,6 @@ LANESCAPE_INLINE Vector spline_value(Vector s, Vector b, Vector c, Vector d, Vec
 // With respect to the argument in intervals.
 LANESCAPE_INLINE Vector spline_slope(Vector s, Vector b, Vector c, Vector d) {
   return multiply_add(s, multiply_add(s * broadcast(3.0), d, c + c), b);
-}
-
-inline std::size_t padded_length(std::size_t count) { return (count + slot_padding - 1) / slot_padding * slot_padding; }
-
-inline Displacement row_at(const NeighbourRows& list, std::size_t k) {
-  const double* point = list.points + list.rows[k];
-  return {broadcast(point[0]), broadcast(point[1]), broadcast(point[2])};
 }
 
 // What is summed lane by lane, and what row by row.

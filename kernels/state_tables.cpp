@@ -1,4 +1,4 @@
-// Tabulated potentials between states, cubic splines in r, at fixed probabilities, over neighbour lists as in lj_list.cpp. All
+// Tabulated potentials between states, cubic splines in r, at fixed probabilities, over neighbour lists as in loops/list.hpp. All
 // pairs of states of a species pair share their intervals, so that one search serves them all and what it finds lies side by side.
 
 #include "kernel_declarations.hpp"
@@ -6,8 +6,6 @@
 
 namespace lanescape::kernels::LANESCAPE_ISA {
 namespace {
-
-enum class Output { energy, gradient, stress };
 
 // States of a row and of its neighbours that one sweep over the neighbours takes, at most four each.
 struct Sweep {
@@ -107,7 +105,7 @@ void sum_list(const StateTableInput& in, double* gradient, double* slopes, PairO
   const Vector zero = broadcast(0.0);
   StateTotals totals;
   for (std::size_t k = 0; k < list.row_count; ++k) {
-    const Displacement row = row_at(list, k);
+    const Displacement row = row_position(list, k);
     Displacement g{zero, zero, zero};
     double* slope = slopes ? slopes + k * states : nullptr;
     for (std::size_t a = 0; slope && a < states; ++a) slope[a] = 0.0;

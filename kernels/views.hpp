@@ -23,37 +23,46 @@ struct SpeciesBlock {
 enum class ImageSearch : std::uint32_t {
   nearest,      // the nearest image only: rc <= L/2, or the minimum-image rule at any cutoff
   two_nearest,  // also the next one: rc <= L and rc^2 <= (La^2 + Lb^2)/4 for every two axes, so that at most one more is in range
-  lattice,      // every image with shifts up to LjInput::shells
+  lattice,      // every image with shifts up to PairInput::shells
 };
 
 // Units of length inside the kernels: in a cubic box the box length, which makes the nearest image free; else sigma.
 enum class LengthUnit : std::uint32_t { box, sigma };
 
-// u(r) = c12 r^-12 - c6 r^-6 - shift for r^2 < cutoff_squared, else 0; r in LjInput::unit.
-struct LjPair {
-  double c12;  // 4 eps s^12
-  double c6;   // 4 eps s^6
+// One species pair of a pair potential, in the unit of the separations. What the coefficients mean is the form's own affair:
+// kernels/forms/<form>.hpp.
+inline constexpr std::size_t pair_coefficients = 8;
+struct PairParameters {
   double cutoff_squared;
-  double shift;  // [epsilon]
+  double coefficient[pair_coefficients];
   ImageSearch images;
 };
 
-struct LjInput {
+// The same for the kernels in mixed precision.
+struct SinglePairParameters {
+  float cutoff_squared;                  // in units of NeighbourRows::fixed_unit
+  float sigma_squared;                   // 1 sigma^2 in the same units
+  float unit_squared;                    // one of these units squared [sigma^2]
+  float coefficient[pair_coefficients];  // [sigma]
+};
+
+struct PairInput {
   const double* positions;  // 3 x slots: all x, all y, all z [sigma]; may be unwrapped
   double* scratch;          // 3 x slots, overwritten
   std::size_t slots;        // a multiple of slot_padding
   const SpeciesBlock* blocks;
   std::size_t block_count;
-  const LjPair* pairs;     // block_count x block_count, symmetric
-  LengthUnit unit;         // box: needs a cubic box and no ImageSearch::lattice
-  double box[3];           // edge lengths [sigma]
-  std::int32_t shells[3];  // largest image shift per axis, for ImageSearch::lattice
+  const PairParameters* pairs;  // block_count x block_count, symmetric
+  const double* diameters;      // slots, in the unit of the parameters; where the form has diameters, else null
+  LengthUnit unit;              // box: needs a cubic box and no ImageSearch::lattice
+  double box[3];                // edge lengths [sigma]
+  std::int32_t shells[3];       // largest image shift per axis, for ImageSearch::lattice
 };
 
 struct PairOutput {
   double energy;            // [epsilon]
   double virial;            // sum over pairs of r.f [epsilon]
-  double virial_tensor[6];  // sum of r_a f_b, Voigt order xx yy zz yz xz xy; written by lj_stress only
+  double virial_tensor[6];  // sum of r_a f_b, Voigt order xx yy zz yz xz xy; written by the kernels named stress only
 };
 
 // Points of a neighbour list: records of point_width doubles, x y z and nothing [sigma], so that a neighbour is one load. They
@@ -75,17 +84,10 @@ struct NeighbourRows {
   double fixed_unit;  // a power of two [sigma]
 };
 
-// What the kernels in mixed precision need of an LjPair in single precision.
-struct LjSinglePair {
-  float twelve_c12, minus_six_c6;  // 12 c12, -6 c6 [sigma]
-  float cutoff_squared;            // in units of NeighbourRows::fixed_unit
-  float sigma_squared;             // 1 sigma^2 in the same units
-};
-
-struct LjListInput {
-  NeighbourRows list;
-  const LjPair* pairs;               // species_count: the rows' species with each [sigma]; `images` is not looked at
-  const LjSinglePair* single_pairs;  // the same; for the kernels in mixed precision, else null
+struct PairListInput {
+  NeighbourRows list;                        // fourth number of a point: its diameter where the form has diameters
+  const PairParameters* pairs;               // species_count: the rows' species with each [sigma]; `images` is not looked at
+  const SinglePairParameters* single_pairs;  // the same; for the kernels in mixed precision, else null
 };
 
 // The cells of a grid, running fastest along z; a column is the cells of one x and y.
@@ -113,13 +115,16 @@ struct NeighbourQuery {
 struct ProbeSpecies : GridShape {
   const std::uint32_t* first;  // cells[2] + 1 per column: of each cell's points, and the column's end
   const double *x, *y, *z;     // slot_padding more than there are can be read
-  LjPair pair;                 // of the probe with this species [sigma]; `images` is not looked at: images are points
+  const double* diameters;     // likewise, where the form has diameters, else null [sigma]
+  PairParameters pair;         // of the probe with this species [sigma]; `images` is not looked at: images are points
+  double reach;                // no point further away is in range [sigma]
 };
 
-// What a particle that is not there would feel.
+// The fluid around a particle that is not in it.
 struct ProbeInput {
   const ProbeSpecies* species;
   std::size_t species_count;
+  double diameter;  // of the probe, where the form has diameters [sigma]
 };
 
 struct ProbeOutput {

@@ -28,6 +28,7 @@ STAGES = {
 ABOVE_THE_API = {"capi"}  # sees the installed headers although it has their number
 # dynamics: an event costs less than a virtual call would be worth, and event-driven dynamics is nothing but its kernels.
 SEES_KERNEL_TABLE = {"dispatch", "neighbour", "interaction", "dynamics", "verification"}
+SEEN_OF_KERNELS = {"views.hpp", "pair_forms.hpp"}
 SEES_REFERENCE = {"verification"}
 # The program starts runs, reads files and verifies; landscapes, dynamics, steppers and paths reach it through run/ only.
 PROGRAM_STAGES = {"core", "configuration", "io", "dispatch", "insertion", "interaction", "run", "verification"}
@@ -64,7 +65,7 @@ class Target:
             self.place, self.stage = "src", first
         elif first in FOLDERS:
             self.place = first
-        elif "/" not in name and (root / "kernels" / name).is_file():
+        elif (root / "kernels" / name).is_file():
             self.place = "kernels"
         elif (path.parent / name).is_file():
             self.place = "neighbouring file"
@@ -116,9 +117,9 @@ def refuse_in_src(relative, target):
     if target.place == "api":
         return None if stage == "api" or stage in ABOVE_THE_API else "the installed headers are seen by src/api and src/capi"
     if target.place == "kernels":
-        if target.name == "views.hpp" or (target.name == "kernel_table.hpp" and stage in SEES_KERNEL_TABLE):
+        if target.name in SEEN_OF_KERNELS or (target.name == "kernel_table.hpp" and stage in SEES_KERNEL_TABLE):
             return None
-        return f"of kernels/, src sees views.hpp, and kernel_table.hpp in {', '.join(sorted(SEES_KERNEL_TABLE))}"
+        return f"of kernels/, src sees {', '.join(sorted(SEEN_OF_KERNELS))}, and kernel_table.hpp in {', '.join(sorted(SEES_KERNEL_TABLE))}"
     if target.place == "reference":
         return None if stage in SEES_REFERENCE else f"reference/ is seen by src/{', '.join(SEES_REFERENCE)}"
     if target.place == "neighbouring file":

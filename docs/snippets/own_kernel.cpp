@@ -21,11 +21,13 @@ namespace {
 
 using namespace lanescape;
 using kernels::KernelTable;
-using kernels::LjInput;
+using kernels::PairForm;
+using kernels::PairInput;
+using kernels::PairKernels;
 using kernels::PairOutput;
 
 // The kernel: energy, virial and gradient over all pairs and all images within the cutoff, without vectors.
-void my_gradient(const LjInput& in, double* gradient, PairOutput& out) noexcept {
+void my_gradient(const PairInput& in, double* gradient, PairOutput& out) noexcept {
   out.energy = out.virial = 0.0;
   std::fill(gradient, gradient + 3 * in.slots, 0.0);
   // The pairs' parameters are in this unit of length.
@@ -34,7 +36,7 @@ void my_gradient(const LjInput& in, double* gradient, PairOutput& out) noexcept 
     scale[k] = in.unit == kernels::LengthUnit::box ? 1.0 / in.box[k] : 1.0;
     edge[k] = in.unit == kernels::LengthUnit::box ? 1.0 : in.box[k];
   }
-  const auto add_pair = [&](std::size_t i, std::size_t j, const kernels::LjPair& u) {
+  const auto add_pair = [&](std::size_t i, std::size_t j, const kernels::PairParameters& u) {
     double nearest[3];
     for (std::size_t k = 0; k < 3; ++k) {
       const double d = (in.positions[k * in.slots + i] - in.positions[k * in.slots + j]) * scale[k];
@@ -49,8 +51,9 @@ void my_gradient(const LjInput& in, double* gradient, PairOutput& out) noexcept 
           const double r2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
           if (!(r2 < u.cutoff_squared)) continue;
           const double rinv6 = 1.0 / (r2 * r2 * r2);
-          const double virial = (12.0 * u.c12 * rinv6 - 6.0 * u.c6) * rinv6;  // -r u'(r)
-          out.energy += (u.c12 * rinv6 - u.c6) * rinv6 - u.shift;
+          const double c12 = u.coefficient[0], c6 = u.coefficient[1], shift = u.coefficient[2];
+          const double virial = (12.0 * c12 * rinv6 - 6.0 * c6) * rinv6;  // -r u'(r)
+          out.energy += (c12 * rinv6 - c6) * rinv6 - shift;
           out.virial += virial;
           for (std::size_t k = 0; k < 3; ++k) {
             const double force = virial / r2 * d[k] * scale[k];
@@ -67,23 +70,31 @@ void my_gradient(const LjInput& in, double* gradient, PairOutput& out) noexcept 
 }
 
 // The same with a fault: one particle feels no force along x.
-void faulty_gradient(const LjInput& in, double* gradient, PairOutput& out) noexcept {
+void faulty_gradient(const PairInput& in, double* gradient, PairOutput& out) noexcept {
   my_gradient(in, gradient, out);
   if (in.block_count > 0 && in.blocks[0].count > 0) gradient[in.blocks[0].begin + in.blocks[0].count - 1] = 0.0;
 }
 
-KernelTable table_with(decltype(KernelTable::lj_gradient) gradient, const char* name) {
-  KernelTable table = kernel_table(available_isas().back());  // the rest stays the library's
+// The library's kernels with another gradient.
+PairKernels kernels_with(decltype(PairKernels::gradient) gradient) {
+  PairKernels kernels = kernel_table(available_isas().back()).pair_kernels(PairForm::lennard_jones);
+  kernels.gradient = gradient;
+  return kernels;
+}
+
+// The library's table with these kernels of Lennard-Jones, which it refers to.
+KernelTable table_with(const PairKernels& kernels, const char* name) {
+  KernelTable table = kernel_table(available_isas().back());
   table.name = name;
-  table.lj_gradient = gradient;
+  table.pair[static_cast<std::size_t>(PairForm::lennard_jones)] = &kernels;
   return table;
 }
 
-// What lj_gradient of this table gives, against the scalar reference on every case; a line for each result.
+// What the gradient of this table gives, against the scalar reference on every case; a line for each result.
 bool verified(const KernelTable& table) {
   bool passed = true;
   for (const Deviation& deviation : verify_lennard_jones(table, pair_cases())) {
-    if (!deviation.kernel.starts_with("lj_gradient ")) continue;
+    if (!deviation.kernel.starts_with("lennard_jones_gradient ")) continue;
     fmt::print("{}: {}\n", deviation.passed() ? "passed" : "FAILED", describe(deviation));
     passed = passed && deviation.passed();
   }
@@ -126,10 +137,11 @@ void time_reference(benchmark::State& state) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const KernelTable mine = table_with(my_gradient, "mine");
+  const PairKernels my_kernels = kernels_with(my_gradient), faulty_kernels = kernels_with(faulty_gradient);
+  const KernelTable mine = table_with(my_kernels, "mine");
   if (!verified(mine)) return 1;
   // A check that finds no fault proves something only if it finds one where there is one.
-  if (verified(table_with(faulty_gradient, "faulty"))) return 1;
+  if (verified(table_with(faulty_kernels, "faulty"))) return 1;
 
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;

@@ -2,11 +2,23 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
 
 namespace lanescape {
+
+namespace {
+
+constexpr std::pair<Truncation, const char*> truncation_words[] = {{Truncation::shifted, "shifted"},
+                                                                   {Truncation::plain, "plain"},
+                                                                   {Truncation::tail, "tail"},
+                                                                   {Truncation::shifted_force, "shifted-force"},
+                                                                   {Truncation::smooth, "smooth"}};
+
+}  // namespace
 
 ImageRule parse_image_rule(std::string_view word) {
   if (word == "all") return ImageRule::all;
@@ -15,24 +27,43 @@ ImageRule parse_image_rule(std::string_view word) {
 }
 
 Truncation parse_truncation(std::string_view word) {
-  if (word == "shifted") return Truncation::shifted;
-  if (word == "plain") return Truncation::plain;
-  if (word == "tail") return Truncation::tail;
-  throw_bad_input(fmt::format("unknown truncation '{}': allowed are shifted, plain, tail", word));
+  for (const auto& [truncation, name] : truncation_words)
+    if (word == name) return truncation;
+  throw_bad_input(fmt::format("unknown truncation '{}': allowed are shifted, plain, tail, shifted-force, smooth", word));
 }
 
 const char* to_string(ImageRule rule) { return rule == ImageRule::all ? "all" : "minimum"; }
 
 const char* to_string(Truncation truncation) {
-  switch (truncation) {
-    case Truncation::shifted:
-      return "shifted";
-    case Truncation::plain:
-      return "plain";
-    case Truncation::tail:
-      return "tail";
-  }
+  for (const auto& [value, name] : truncation_words)
+    if (value == truncation) return name;
   return "";
+}
+
+double PairModel::largest_cutoff() const {
+  double largest = 0.0;
+  for (std::size_t ab = 0; ab < sigma.size(); ++ab) largest = std::max(largest, cutoff_of(ab));
+  return largest;
+}
+
+PairCorrection PairModel::correction(std::size_t ab) const {
+  if (truncation == Truncation::plain || truncation == Truncation::tail) return {};
+  const double rc = cutoff_of(ab), rc2 = rc * rc;
+  const PairDerivatives at = form->derivatives(numbers(ab), rc);
+  if (truncation == Truncation::shifted) return {.c0 = -at.u};
+  if (truncation == Truncation::shifted_force) return {.c0 = at.first - at.u, .c1 = -at.first / rc};
+  // With t = r^2 the correction is a parabola in t, which takes over value, slope and curvature at rc.
+  const double slope = at.first / (2.0 * rc2), curvature = (at.second - at.first) / (4.0 * rc2 * rc2);
+  const double c4 = -0.5 * curvature, c2 = curvature * rc2 - slope;
+  return {.c0 = -at.u - c2 * rc2 - c4 * rc2 * rc2, .c2 = c2, .c4 = c4};
+}
+
+PairDerivatives PairModel::derivatives(std::size_t ab, double r) const {
+  const PairCorrection c = correction(ab);
+  const PairDerivatives at = form->derivatives(numbers(ab), r);
+  const double r2 = r * r, r4 = r2 * r2;
+  return {at.u + (c.c0 + c.c1 * r + c.c2 * r2 + c.c4 * r4), at.first + (c.c1 * r + 2.0 * c.c2 * r2 + 4.0 * c.c4 * r4),
+          at.second + (2.0 * c.c2 * r2 + 12.0 * c.c4 * r4)};
 }
 
 void PairModel::check() const {

@@ -5,13 +5,20 @@
 #include <vector>
 
 #include "configuration/mixture.hpp"
+#include "configuration/pair_form.hpp"
 
 namespace lanescape {
 
 // Which periodic images of a pair interact (docs/ARCHITECTURE.md, "Small boxes").
 enum class ImageRule { all, minimum };
-// Cut and shifted; cut; cut with long-range corrections.
-enum class Truncation { shifted, plain, tail };
+// How u(r) ends at the cutoff.
+enum class Truncation {
+  shifted,        // u(r) - u(rc)
+  plain,          // u(r)
+  tail,           // u(r), and the integral over a uniform fluid beyond the cutoff
+  shifted_force,  // u(r) - u(rc) - (r - rc) u'(rc)
+  smooth          // u(r) + c0 + c2 r^2 + c4 r^4: value, slope and curvature vanish at the cutoff
+};
 
 // Throw Error(bad_input) naming the allowed words.
 ImageRule parse_image_rule(std::string_view word);
@@ -19,15 +26,24 @@ Truncation parse_truncation(std::string_view word);
 const char* to_string(ImageRule rule);
 const char* to_string(Truncation truncation);
 
-// A Lennard-Jones mixture: u(r) = 4 eps_ab [(s_ab/r)^12 - (s_ab/r)^6], r < cutoff s_ab.
+// A mixture with a pair potential of one form, for each two species with an epsilon and a sigma of their own.
 struct PairModel : Mixture {
-  std::vector<double> epsilon;  // S x S, row-major, symmetric [epsilon]
-  std::vector<double> sigma;    // S x S [sigma]
-  double cutoff = 2.5;          // in units of s_ab
+  const PairForm* form = &lennard_jones_form();
+  std::vector<double> form_numbers;  // one for each of form->numbers
+  std::vector<double> epsilon;       // S x S, row-major, symmetric [epsilon]
+  std::vector<double> sigma;         // S x S [sigma]
+  double cutoff = 2.5;               // in units of s_ab
   Truncation truncation = Truncation::shifted;
   ImageRule images = ImageRule::all;
 
   std::size_t pair(std::size_t a, std::size_t b) const { return a * species.size() + b; }
+  PairNumbers numbers(std::size_t ab) const { return {epsilon[ab], sigma[ab], form_numbers}; }
+  double cutoff_of(std::size_t ab) const { return cutoff * sigma[ab]; }  // [sigma]
+  double largest_cutoff() const;                                         // of all pairs [sigma]
+  // What the truncation adds to u(r) of a pair of species.
+  PairCorrection correction(std::size_t ab) const;
+  // Of the truncated potential, below the cutoff.
+  PairDerivatives derivatives(std::size_t ab, double r) const;
   // Throws Error(bad_input) unless species are sound, sizes match, matrices are symmetric and every number is finite and in range.
   void check() const;
 };

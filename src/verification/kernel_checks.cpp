@@ -143,11 +143,11 @@ std::vector<Deviation> verify_search(const kernels::KernelTable& table, const st
 }  // namespace
 
 std::vector<Deviation> verify_lennard_jones(const kernels::KernelTable& table, const std::vector<PairCase>& cases) {
-  return verify_search(table, cases, PairSearch::all_pairs, "lj_");
+  return verify_search(table, cases, PairSearch::all_pairs, "lennard_jones_");
 }
 
 std::vector<Deviation> verify_lennard_jones_lists(const kernels::KernelTable& table, const std::vector<PairCase>& cases) {
-  return verify_search(table, cases, PairSearch::list, "lj_list_");
+  return verify_search(table, cases, PairSearch::list, "lennard_jones_list_");
 }
 
 namespace {
@@ -166,12 +166,12 @@ bool has_pair_at_cutoff(const PairModel& model, const Configuration& configurati
 }  // namespace
 
 std::vector<Deviation> verify_lennard_jones_mixed(const kernels::KernelTable& table, const std::vector<PairCase>& cases) {
-  Check energy(table, "lj_list_energy_mixed", tolerance::lj_mixed_sums),
-      gradient_energy(table, "lj_list_gradient_mixed energy", tolerance::lj_mixed_sums),
-      gradient(table, "lj_list_gradient_mixed gradient", tolerance::lj_mixed_gradient),
-      virial(table, "lj_list_gradient_mixed virial", tolerance::lj_mixed_sums);
-  Check energy_bits(table, "lj_list_energy_mixed, lj_list_gradient_mixed: same energy", tolerance::exact);
-  Check gradient_bits(table, "lj_list_force_mixed, lj_list_gradient_mixed: same gradient", tolerance::exact);
+  Check energy(table, "lennard_jones_list_energy_mixed", tolerance::lj_mixed_sums),
+      gradient_energy(table, "lennard_jones_list_gradient_mixed energy", tolerance::lj_mixed_sums),
+      gradient(table, "lennard_jones_list_gradient_mixed gradient", tolerance::lj_mixed_gradient),
+      virial(table, "lennard_jones_list_gradient_mixed virial", tolerance::lj_mixed_sums);
+  Check energy_bits(table, "lennard_jones_list_energy_mixed, lennard_jones_list_gradient_mixed: same energy", tolerance::exact);
+  Check gradient_bits(table, "lennard_jones_list_force_mixed, lennard_jones_list_gradient_mixed: same gradient", tolerance::exact);
   for (const auto& [name, model, configuration] : cases) {
     if (!fits_list(model, configuration.box, default_skin) || has_pair_at_cutoff(model, configuration)) continue;
     const reference::Evaluation expected = evaluate_reference(model, configuration);

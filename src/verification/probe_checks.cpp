@@ -55,9 +55,10 @@ double wrongly_clear(const PairModel& model, const Configuration& configuration,
 }  // namespace
 
 std::vector<Deviation> verify_probes(const kernels::KernelTable& table, const std::vector<PairCase>& cases) {
-  Check energy(table, "lj_probe energy", tolerance::lj_sums), gradient(table, "lj_probe gradient", tolerance::lj_gradient),
-      energy_bits(table, "lj_probe, lj_probe_energies: same energy", tolerance::exact),
-      clear(table, "lj_probe_first_clear", tolerance::exact);
+  Check energy(table, "lennard_jones_probe energy", tolerance::lj_sums),
+      gradient(table, "lennard_jones_probe gradient", tolerance::lj_gradient),
+      energy_bits(table, "lennard_jones_probe, lennard_jones_probe_energies: same energy", tolerance::exact),
+      clear(table, "probe_first_clear", tolerance::exact);
   for (const auto& [name, model, configuration] : cases) {
     if (!fits_probe(model, configuration.box)) continue;
     const double allowance = rounding_allowance(configuration);

@@ -11,6 +11,9 @@ reference::Truncation translate(Truncation truncation) {
       return reference::Truncation::plain;
     case Truncation::tail:
       return reference::Truncation::tail;
+    case Truncation::shifted_force:
+    case Truncation::smooth:
+      break;
   }
   return reference::Truncation::shifted;
 }

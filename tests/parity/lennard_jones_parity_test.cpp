@@ -23,8 +23,12 @@ namespace lanescape {
 namespace {
 
 using kernels::KernelTable;
-using kernels::LjInput;
+using kernels::PairForm;
+using kernels::PairInput;
+using kernels::PairKernels;
 using kernels::PairOutput;
+
+const PairKernels& of(const KernelTable& table) { return table.pair_kernels(PairForm::lennard_jones); }
 
 const std::vector<PairCase>& every_case() {
   static const std::vector<PairCase> cases = pair_cases();
@@ -89,9 +93,9 @@ TEST_P(LennardJonesParity, AForcedInstructionSetIsTheOneThatRuns) {
   for (const Isa isa : available_isas())
     if (isa != GetParam()) {
       const KernelTable& other = kernel_table(isa);
-      EXPECT_NE(forced.lj_energy, other.lj_energy) << other.name;
-      EXPECT_NE(forced.lj_gradient, other.lj_gradient) << other.name;
-      EXPECT_NE(forced.lj_stress, other.lj_stress) << other.name;
+      EXPECT_NE(of(forced).energy, of(other).energy) << other.name;
+      EXPECT_NE(of(forced).gradient, of(other).gradient) << other.name;
+      EXPECT_NE(of(forced).stress, of(other).stress) << other.name;
       EXPECT_NE(forced.dot, other.dot) << other.name;
     }
 }
@@ -157,41 +161,48 @@ TEST(LennardJonesCases, CutoffEdgesAreDecidedAsTheirNamesSay) {
 // The checks must be able to fail: kernels that are wrong in one place by a little.
 const KernelTable* right = nullptr;  // what the wrong kernels start from; a kernel is a plain function
 
-double energy_slightly_wrong(const LjInput& in) noexcept { return right->lj_energy(in) * (1.0 + 1e-11); }
-double energy_off_by_one_bit(const LjInput& in) noexcept { return std::nextafter(right->lj_energy(in), 1e300); }
-double energy_not_a_number(const LjInput&) noexcept { return std::numeric_limits<double>::quiet_NaN(); }
-double energy_without_shift(const LjInput& in) noexcept {
-  std::vector<kernels::LjPair> pairs(in.pairs, in.pairs + in.block_count * in.block_count);
-  for (auto& pair : pairs) pair.shift = 0.0;
-  LjInput changed = in;
-  changed.pairs = pairs.data();
-  return right->lj_energy(changed);
+// The right kernels, but for those of Lennard-Jones.
+KernelTable with(const PairKernels& lennard_jones) {
+  KernelTable table = *right;
+  table.pair[static_cast<std::size_t>(PairForm::lennard_jones)] = &lennard_jones;
+  return table;
 }
-void gradient_wrong_in_one_component(const LjInput& in, double* gradient, PairOutput& out) noexcept {
-  right->lj_gradient(in, gradient, out);
+
+double energy_slightly_wrong(const PairInput& in) noexcept { return of(*right).energy(in) * (1.0 + 1e-11); }
+double energy_off_by_one_bit(const PairInput& in) noexcept { return std::nextafter(of(*right).energy(in), 1e300); }
+double energy_not_a_number(const PairInput&) noexcept { return std::numeric_limits<double>::quiet_NaN(); }
+double energy_without_shift(const PairInput& in) noexcept {
+  std::vector<kernels::PairParameters> pairs(in.pairs, in.pairs + in.block_count * in.block_count);
+  for (auto& pair : pairs) pair.coefficient[2] = 0.0;
+  PairInput changed = in;
+  changed.pairs = pairs.data();
+  return of(*right).energy(changed);
+}
+void gradient_wrong_in_one_component(const PairInput& in, double* gradient, PairOutput& out) noexcept {
+  of(*right).gradient(in, gradient, out);
   if (in.slots > 0) gradient[0] *= 1.0 + 1e-10;
 }
-void gradient_with_dirty_padding(const LjInput& in, double* gradient, PairOutput& out) noexcept {
-  right->lj_gradient(in, gradient, out);
+void gradient_with_dirty_padding(const PairInput& in, double* gradient, PairOutput& out) noexcept {
+  of(*right).gradient(in, gradient, out);
   if (in.slots > 0) gradient[in.slots - 1] += 1e-300;
 }
-void gradient_leaving_the_last_pairs_out(const LjInput& in, double* gradient, PairOutput& out) noexcept {
+void gradient_leaving_the_last_pairs_out(const PairInput& in, double* gradient, PairOutput& out) noexcept {
   std::vector<kernels::SpeciesBlock> blocks(in.blocks, in.blocks + in.block_count);
   if (blocks[0].count > 1) --blocks[0].count;
-  LjInput changed = in;
+  PairInput changed = in;
   changed.blocks = blocks.data();
-  right->lj_gradient(changed, gradient, out);
+  of(*right).gradient(changed, gradient, out);
 }
-void gradient_with_wrong_virial(const LjInput& in, double* gradient, PairOutput& out) noexcept {
-  right->lj_gradient(in, gradient, out);
+void gradient_with_wrong_virial(const PairInput& in, double* gradient, PairOutput& out) noexcept {
+  of(*right).gradient(in, gradient, out);
   out.virial *= 1.0 - 1e-11;
 }
-void stress_with_swapped_shears(const LjInput& in, double* gradient, PairOutput& out) noexcept {
-  right->lj_stress(in, gradient, out);
+void stress_with_swapped_shears(const PairInput& in, double* gradient, PairOutput& out) noexcept {
+  of(*right).stress(in, gradient, out);
   std::swap(out.virial_tensor[3], out.virial_tensor[5]);
 }
-void stress_with_wrong_gradient(const LjInput& in, double* gradient, PairOutput& out) noexcept {
-  right->lj_stress(in, gradient, out);
+void stress_with_wrong_gradient(const PairInput& in, double* gradient, PairOutput& out) noexcept {
+  of(*right).stress(in, gradient, out);
   if (in.slots > 0) gradient[2 * in.slots] = -gradient[2 * in.slots];
 }
 
@@ -204,38 +215,39 @@ std::vector<std::string> failed_checks(const KernelTable& table) {
 
 TEST(LennardJonesChecks, FailForTheResultThatIsWrongAndForNoOther) {
   right = &kernel_table(available_isas().back());
-  const auto failed_with = [](auto KernelTable::* kernel, auto replacement) {
-    KernelTable table = *right;
-    table.*kernel = replacement;
-    return failed_checks(table);
+  const auto failed_with = [](auto PairKernels::* kernel, auto replacement) {
+    PairKernels wrong = of(*right);
+    wrong.*kernel = replacement;
+    return failed_checks(with(wrong));
   };
   using Names = std::vector<std::string>;
-  const std::string same_energy = "lj_energy, lj_gradient, lj_stress: same energy",
-                    same_virial = "lj_gradient, lj_stress: same virial";
+  const std::string same_energy = "lennard_jones_energy, lennard_jones_gradient, lennard_jones_stress: same energy",
+                    same_virial = "lennard_jones_gradient, lennard_jones_stress: same virial";
   EXPECT_EQ(failed_checks(*right), Names{});
-  EXPECT_EQ(failed_with(&KernelTable::lj_energy, energy_slightly_wrong), (Names{"lj_energy", same_energy}));
-  EXPECT_EQ(failed_with(&KernelTable::lj_energy, energy_not_a_number), (Names{"lj_energy", same_energy}));
-  EXPECT_EQ(failed_with(&KernelTable::lj_energy, energy_without_shift), (Names{"lj_energy", same_energy}));
-  EXPECT_EQ(failed_with(&KernelTable::lj_gradient, gradient_wrong_in_one_component), Names{"lj_gradient gradient"});
-  EXPECT_EQ(failed_with(&KernelTable::lj_gradient, gradient_with_dirty_padding), Names{"lj_gradient gradient"});
-  EXPECT_EQ(failed_with(&KernelTable::lj_gradient, gradient_leaving_the_last_pairs_out),
-            (Names{"lj_gradient energy", "lj_gradient gradient", "lj_gradient virial", same_energy, same_virial}));
-  EXPECT_EQ(failed_with(&KernelTable::lj_gradient, gradient_with_wrong_virial), (Names{"lj_gradient virial", same_virial}));
-  EXPECT_EQ(failed_with(&KernelTable::lj_stress, stress_with_swapped_shears), Names{"lj_stress tensor"});
-  EXPECT_EQ(failed_with(&KernelTable::lj_stress, stress_with_wrong_gradient), Names{"lj_stress gradient"});
+  EXPECT_EQ(failed_with(&PairKernels::energy, energy_slightly_wrong), (Names{"lennard_jones_energy", same_energy}));
+  EXPECT_EQ(failed_with(&PairKernels::energy, energy_not_a_number), (Names{"lennard_jones_energy", same_energy}));
+  EXPECT_EQ(failed_with(&PairKernels::energy, energy_without_shift), (Names{"lennard_jones_energy", same_energy}));
+  EXPECT_EQ(failed_with(&PairKernels::gradient, gradient_wrong_in_one_component), Names{"lennard_jones_gradient gradient"});
+  EXPECT_EQ(failed_with(&PairKernels::gradient, gradient_with_dirty_padding), Names{"lennard_jones_gradient gradient"});
+  EXPECT_EQ(failed_with(&PairKernels::gradient, gradient_leaving_the_last_pairs_out),
+            (Names{"lennard_jones_gradient energy", "lennard_jones_gradient gradient", "lennard_jones_gradient virial", same_energy,
+                   same_virial}));
+  EXPECT_EQ(failed_with(&PairKernels::gradient, gradient_with_wrong_virial), (Names{"lennard_jones_gradient virial", same_virial}));
+  EXPECT_EQ(failed_with(&PairKernels::stress, stress_with_swapped_shears), Names{"lennard_jones_stress tensor"});
+  EXPECT_EQ(failed_with(&PairKernels::stress, stress_with_wrong_gradient), Names{"lennard_jones_stress gradient"});
 }
 
 TEST(LennardJonesChecks, SeeASingleBitBetweenTheKernels) {
   right = &kernel_table(available_isas().back());
-  KernelTable table = *right;
-  table.lj_energy = energy_off_by_one_bit;
+  PairKernels wrong = of(*right);
+  wrong.energy = energy_off_by_one_bit;
   // Where no pair is in range the energy is exactly zero, and one bit of it is no rounding error.
   std::vector<PairCase> dense = small_cases();
   std::erase_if(dense, [](const PairCase& c) { return c.configuration.size() < 8; });
   std::vector<std::string> failed;
-  for (const Deviation& deviation : verify_lennard_jones(table, dense))
+  for (const Deviation& deviation : verify_lennard_jones(with(wrong), dense))
     if (!deviation.passed()) failed.push_back(deviation.kernel);
-  EXPECT_EQ(failed, std::vector<std::string>{"lj_energy, lj_gradient, lj_stress: same energy"});
+  EXPECT_EQ(failed, std::vector<std::string>{"lennard_jones_energy, lennard_jones_gradient, lennard_jones_stress: same energy"});
 }
 
 TEST(LennardJonesChecks, DoNotPassWithoutASingleCase) {
@@ -245,12 +257,12 @@ TEST(LennardJonesChecks, DoNotPassWithoutASingleCase) {
 
 TEST(Junit, ListsEveryCheckAndEscapesWhatXmlReserves) {
   std::ostringstream out;
-  write_junit(out, {{"lj_energy", "avx2", "", 0.0, 1e-14, 3}, {"dot", "sse2", "a<b & \"c\"\n", 1.0, 1e-15, 2}});
+  write_junit(out, {{"lennard_jones_energy", "avx2", "", 0.0, 1e-14, 3}, {"dot", "sse2", "a<b & \"c\"\n", 1.0, 1e-15, 2}});
   EXPECT_EQ(out.str(),
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
             "<testsuites>\n"
             "  <testsuite name=\"lanescape verify\" tests=\"2\" failures=\"1\" errors=\"0\" skipped=\"0\">\n"
-            "    <testcase classname=\"avx2\" name=\"lj_energy\"/>\n"
+            "    <testcase classname=\"avx2\" name=\"lennard_jones_energy\"/>\n"
             "    <testcase classname=\"sse2\" name=\"dot\">\n"
             "      <failure message=\"dot on sse2: worst deviation 1, allowed 1e-15, of 2 cases the worst is "
             "&apos;a&lt;b &amp; &quot;c&quot;&#10;&apos;\"/>\n"

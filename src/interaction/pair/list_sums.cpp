@@ -8,31 +8,22 @@
 namespace lanescape {
 namespace {
 
-std::vector<double> cutoffs(const std::vector<kernels::LjPair>& pairs) {
+std::vector<double> cutoffs(const std::vector<kernels::PairParameters>& pairs) {
   std::vector<double> cutoffs;
   for (const auto& pair : pairs) cutoffs.push_back(std::sqrt(pair.cutoff_squared));
   return cutoffs;
-}
-
-std::vector<kernels::LjSinglePair> in_single_precision(const std::vector<kernels::LjPair>& pairs, double fixed_unit) {
-  const double sigma_squared = 1.0 / (fixed_unit * fixed_unit);
-  std::vector<kernels::LjSinglePair> single;
-  for (const auto& pair : pairs)
-    single.push_back({static_cast<float>(12.0 * pair.c12), static_cast<float>(-6.0 * pair.c6),
-                      static_cast<float>(pair.cutoff_squared * sigma_squared), static_cast<float>(sigma_squared)});
-  return single;
 }
 
 }  // namespace
 
 ListSums::ListSums(const PairModel& model, const Box& box, const ParticleLayout& layout, const kernels::KernelTable& table,
                    double skin, int threads, Precision precision)
-    : table_(&table),
+    : kernels_(&table.pair_kernels(model.form->kernel)),
       precision_(precision),
       pairs_(pair_parameters(model)),
       list_(box, layout, cutoffs(pairs_), skin, table, threads,
             precision == Precision::mixed ? NeighbourList::Coordinates::floating_and_fixed : NeighbourList::Coordinates::floating) {
-  if (precision == Precision::mixed) single_pairs_ = in_single_precision(pairs_, list_.fixed_unit());
+  if (precision == Precision::mixed) single_pairs_ = single_pair_parameters(pairs_, list_.fixed_unit());
   for (std::size_t b = 0; b < layout.blocks().size(); ++b) {
     const std::size_t end = b + 1 < layout.blocks().size() ? layout.blocks()[b + 1].begin : layout.slots();
     for (std::size_t slot = layout.blocks()[b].begin + layout.blocks()[b].count; slot < end; ++slot) padding_.push_back(slot);
@@ -48,8 +39,8 @@ void ListSums::for_each_block(const AlignedArray& positions, Evaluate evaluate) 
     alignas(kernels::array_alignment) std::array<double, kernels::point_width * NeighbourList::block_rows> records;
     for (std::size_t b = list_.first_block(part); b < list_.first_block(part + 1); ++b)
       evaluate(b,
-               kernels::LjListInput{list_.rows_of(b), pairs_.data() + list_.species_of(b) * species,
-                                    single_pairs_.empty() ? nullptr : single_pairs_.data() + list_.species_of(b) * species},
+               kernels::PairListInput{list_.rows_of(b), pairs_.data() + list_.species_of(b) * species,
+                                      single_pairs_.empty() ? nullptr : single_pairs_.data() + list_.species_of(b) * species},
                records.data());
   });
 }
@@ -82,14 +73,14 @@ kernels::PairOutput ListSums::total() const {
 }
 
 double ListSums::energy(const AlignedArray& positions) {
-  const auto sum = precision_ == Precision::mixed ? table_->lj_list_energy_mixed : table_->lj_list_energy;
-  for_each_block(positions, [&](std::size_t b, const kernels::LjListInput& in, double*) { sums_[b].energy = sum(in); });
+  const auto sum = precision_ == Precision::mixed ? kernels_->list_energy_mixed : kernels_->list_energy;
+  for_each_block(positions, [&](std::size_t b, const kernels::PairListInput& in, double*) { sums_[b].energy = sum(in); });
   return total().energy;
 }
 
 void ListSums::gradient_only(const AlignedArray& positions, AlignedArray& gradient) {
-  const auto sum = precision_ == Precision::mixed ? table_->lj_list_force_mixed : table_->lj_list_force;
-  for_each_block(positions, [&](std::size_t b, const kernels::LjListInput& in, double* records) {
+  const auto sum = precision_ == Precision::mixed ? kernels_->list_force_mixed : kernels_->list_force;
+  for_each_block(positions, [&](std::size_t b, const kernels::PairListInput& in, double* records) {
     sum(in, records);
     put_gradient(b, records, gradient);
   });
@@ -97,8 +88,8 @@ void ListSums::gradient_only(const AlignedArray& positions, AlignedArray& gradie
 }
 
 void ListSums::gradient(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) {
-  const auto sum = precision_ == Precision::mixed ? table_->lj_list_gradient_mixed : table_->lj_list_gradient;
-  for_each_block(positions, [&](std::size_t b, const kernels::LjListInput& in, double* records) {
+  const auto sum = precision_ == Precision::mixed ? kernels_->list_gradient_mixed : kernels_->list_gradient;
+  for_each_block(positions, [&](std::size_t b, const kernels::PairListInput& in, double* records) {
     sum(in, records, sums_[b]);
     put_gradient(b, records, gradient);
   });
@@ -107,8 +98,8 @@ void ListSums::gradient(const AlignedArray& positions, AlignedArray& gradient, k
 }
 
 void ListSums::stress(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) {
-  for_each_block(positions, [&](std::size_t b, const kernels::LjListInput& in, double* records) {
-    table_->lj_list_stress(in, records, sums_[b]);
+  for_each_block(positions, [&](std::size_t b, const kernels::PairListInput& in, double* records) {
+    kernels_->list_stress(in, records, sums_[b]);
     put_gradient(b, records, gradient);
   });
   clear_padding(gradient);

@@ -30,23 +30,17 @@ ImageSearch image_search(const Box& box, double cutoff, ImageRule rule) {
 
 void check_cutoff(const PairModel& model, const Box& box) {
   if (model.images == ImageRule::minimum) return;
-  const double cutoff = model.cutoff * *std::max_element(model.sigma.begin(), model.sigma.end());
+  const double cutoff = model.largest_cutoff();
   if (image_shells(box.shortest(), cutoff) > max_image_shells)
     throw_bad_input(
         fmt::format("cutoff {} reaches over more than {} images of the box, whose shortest edge is {}: at most {} is allowed",
                     cutoff, max_image_shells, box.shortest(), (max_image_shells + 0.5) * box.shortest()));
 }
 
-// 2 pi / V times the integrals beyond r_c of r^2 u(r) and of -r^3 u'(r).
-double long_range_energy(const PairModel& model, std::size_t a, std::size_t b, double volume) {
-  const double sigma = model.sigma[model.pair(a, b)], x3 = std::pow(model.cutoff, -3), x9 = x3 * x3 * x3;
-  return 8.0 * std::numbers::pi / volume * model.epsilon[model.pair(a, b)] * sigma * sigma * sigma * (x9 / 9.0 - x3 / 3.0);
-}
-
-double long_range_virial(const PairModel& model, std::size_t a, std::size_t b, double volume) {
-  const double sigma = model.sigma[model.pair(a, b)], x3 = std::pow(model.cutoff, -3), x9 = x3 * x3 * x3;
-  return 8.0 * std::numbers::pi / volume * model.epsilon[model.pair(a, b)] * sigma * sigma * sigma *
-         (12.0 * x9 / 9.0 - 6.0 * x3 / 3.0);
+PairTail long_range(const PairModel& model, std::size_t a, std::size_t b, double volume) {
+  PairNumbers numbers = model.numbers(model.pair(a, b));
+  numbers.epsilon *= 2.0 * std::numbers::pi / volume;  // the integrals are proportional to it
+  return model.form->tail(numbers, model.cutoff);
 }
 
 const char* to_string(Precision precision) { return precision == Precision::mixed ? "mixed" : "double"; }
@@ -59,7 +53,7 @@ Precision parse_precision(std::string_view word) {
 
 bool fits_list(const PairModel& model, const Box& box, double skin) {
   if (model.images == ImageRule::all) return true;
-  const double cutoff = model.cutoff * *std::max_element(model.sigma.begin(), model.sigma.end());
+  const double cutoff = model.largest_cutoff();
   return 2.0 * (cutoff + skin) <= box.shortest();
 }
 
@@ -117,10 +111,10 @@ PairInteraction::~PairInteraction() = default;
 
 void PairInteraction::add_images_of_self(const PairModel& model, const Box& box) {
   for (std::size_t s = 0; s < blocks_.size(); ++s) {
-    const double sigma = model.sigma[model.pair(s, s)], epsilon = model.epsilon[model.pair(s, s)];
-    const double cutoff = model.cutoff * sigma, s6 = std::pow(sigma, 6);
-    const double at_cutoff = std::pow(sigma / cutoff, 6);
-    const double shift = model.truncation == Truncation::shifted ? 4.0 * epsilon * at_cutoff * (at_cutoff - 1.0) : 0.0;
+    const std::size_t pair = model.pair(s, s);
+    const double cutoff = model.cutoff_of(pair);
+    // Half of each: the pair of a particle and its image belongs to one particle only.
+    const double weight = 0.5 * static_cast<double>(blocks_[s].count);
     const auto reach = [&](std::size_t axis) { return static_cast<int>(cutoff / box.length[axis]); };
     for (int a = -reach(0); a <= reach(0); ++a)
       for (int b = -reach(1); b <= reach(1); ++b)
@@ -128,11 +122,9 @@ void PairInteraction::add_images_of_self(const PairModel& model, const Box& box)
           const std::array<double, 3> d = {a * box.length[0], b * box.length[1], c * box.length[2]};
           const double r2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
           if (r2 == 0.0 || !(r2 < cutoff * cutoff)) continue;
-          const double sixth = s6 / (r2 * r2 * r2);
-          // Half of each: the pair of a particle and its image belongs to one particle only.
-          const double weight = 0.5 * static_cast<double>(blocks_[s].count);
-          const double virial = weight * 24.0 * epsilon * (2.0 * sixth - 1.0) * sixth;
-          constants_.energy += weight * (4.0 * epsilon * (sixth - 1.0) * sixth - shift);
+          const PairDerivatives at = model.derivatives(pair, std::sqrt(r2));
+          constants_.energy += weight * at.u;
+          const double virial = -weight * at.first;
           constants_.virial += virial;
           constexpr std::size_t voigt[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
           for (std::size_t k = 0; k < 6; ++k) constants_.virial_tensor[k] += virial * d[voigt[k][0]] * d[voigt[k][1]] / r2;
@@ -144,8 +136,9 @@ void PairInteraction::add_tail(const PairModel& model, const Box& box) {
   for (std::size_t a = 0; a < blocks_.size(); ++a)
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       const double pairs = static_cast<double>(blocks_[a].count) * static_cast<double>(blocks_[b].count);
-      const double virial = pairs * long_range_virial(model, a, b, box.volume());
-      constants_.energy += pairs * long_range_energy(model, a, b, box.volume());
+      const PairTail tail = long_range(model, a, b, box.volume());
+      const double virial = pairs * tail.virial;
+      constants_.energy += pairs * tail.energy;
       constants_.virial += virial;
       for (std::size_t k = 0; k < 3; ++k) constants_.virial_tensor[k] += virial / 3.0;
     }

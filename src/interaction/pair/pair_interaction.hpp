@@ -28,10 +28,9 @@ inline constexpr int max_image_shells = 8;
 // Throws Error(bad_input) where some pair's cutoff reaches further than that.
 void check_cutoff(const PairModel& model, const Box& box);
 
-// What the integral over a uniform fluid beyond the cutoff adds to the energy, and to the virial sum r.f, for each N_a N_b; the sum
-// runs over a and b, each pair of species in both orders [epsilon].
-double long_range_energy(const PairModel& model, std::size_t a, std::size_t b, double volume);
-double long_range_virial(const PairModel& model, std::size_t a, std::size_t b, double volume);
+// What a uniform fluid beyond the cutoff adds to the energy, and to the virial sum r.f, for each N_a N_b; the sum runs over a and
+// b, each pair of species in both orders [epsilon].
+PairTail long_range(const PairModel& model, std::size_t a, std::size_t b, double volume);
 
 // Throws Error(bad_input) naming the closest pair if any two particles are nearer than 0.3 sigma_ab, where r^-12 has lost all
 // meaning, or the coordinate that is not finite. O(N).

@@ -36,13 +36,13 @@ class AllPairsSums final : public PairSums {
   void stress(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) override;
 
  private:
-  kernels::LjInput input(const AlignedArray& positions);
+  kernels::PairInput input(const AlignedArray& positions);
 
-  const kernels::KernelTable* table_;
+  const kernels::PairKernels* kernels_;
   std::vector<kernels::SpeciesBlock> blocks_;
-  std::vector<kernels::LjPair> pairs_;
+  std::vector<kernels::PairParameters> pairs_;
   AlignedArray scratch_;
-  kernels::LjInput input_{};
+  kernels::PairInput input_{};
 };
 
 // Over a neighbour list, on any number of threads with the same bits.
@@ -67,10 +67,10 @@ class ListSums final : public PairSums {
   void put_gradient(std::size_t block, const double* records, AlignedArray& gradient) const;
   kernels::PairOutput total() const;
 
-  const kernels::KernelTable* table_;
+  const kernels::PairKernels* kernels_;
   Precision precision_;
-  std::vector<kernels::LjPair> pairs_;
-  std::vector<kernels::LjSinglePair> single_pairs_;  // of mixed precision, else none
+  std::vector<kernels::PairParameters> pairs_;
+  std::vector<kernels::SinglePairParameters> single_pairs_;  // of mixed precision, else none
   NeighbourList list_;
   std::vector<std::size_t> padding_;       // slots without a particle
   std::vector<kernels::PairOutput> sums_;  // of each block

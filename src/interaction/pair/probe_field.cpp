@@ -22,24 +22,24 @@ double energy_alone(const PairModel& model, const Box& box, int species, const k
 }  // namespace
 
 ProbeField::ProbeField(const PairModel& model, const Configuration& fluid, int species, const kernels::KernelTable& table)
-    : table_(&table), box_(fluid.box), species_(species) {
+    : table_(&table), model_(model), kernels_(&table.pair_kernels(model.form->kernel)), box_(fluid.box), species_(species) {
   check_cutoff(model, box_);
   const std::size_t count = model.species.size();
   if (species < 0 || static_cast<std::size_t>(species) >= count)
     throw_bad_input(fmt::format("species {} of an inserted particle is not allowed: the model has {}", species, count));
-  const std::vector<kernels::LjPair> all = pair_parameters(model);
+  const std::vector<kernels::PairParameters> all = pair_parameters(model);
   std::vector<std::vector<Point>> points(count);
   for (std::size_t i = 0; i < fluid.size(); ++i) points[static_cast<std::size_t>(fluid.species[i])].push_back(fluid.position(i));
   for (std::size_t b = 0; b < count; ++b) {
     const std::size_t ab = model.pair(static_cast<std::size_t>(species), b);
-    const double cutoff = model.cutoff * model.sigma[ab];
+    const double cutoff = model.cutoff_of(ab);
     largest_cutoff_ = std::max(largest_cutoff_, cutoff);
     largest_sigma_ = std::max(largest_sigma_, model.sigma[ab]);
     pairs_.push_back(all[ab]);
     cells_.emplace_back(box_, cutoff, points[b].size());
     cells_.back().assign(points[b]);
     tail_.push_back(model.truncation == Truncation::tail
-                        ? 2.0 * long_range_energy(model, static_cast<std::size_t>(species), b, box_.volume())
+                        ? 2.0 * long_range(model, static_cast<std::size_t>(species), b, box_.volume()).energy
                         : 0.0);
   }
   if (model.images == ImageRule::minimum && 2.0 * largest_cutoff_ > box_.shortest())
@@ -57,6 +57,7 @@ void ProbeField::refresh() {
   for (std::size_t b = 0; b < cells_.size(); ++b) {
     views_.push_back(cells_[b].view());
     views_.back().pair = pairs_[b];
+    views_.back().reach = std::sqrt(pairs_[b].cutoff_squared);
     constant_ += tail_[b] * static_cast<double>(cells_[b].size());
   }
 }
@@ -70,7 +71,7 @@ ProbeField::Point ProbeField::home(const Point& position) const {
 ProbeField::Sample ProbeField::sample(const Point& position) const {
   kernels::ProbeOutput out;
   const Point at = home(position);
-  table_->lj_probe({views_.data(), views_.size()}, at.data(), out);
+  kernels_->probe({views_.data(), views_.size(), 0.0}, at.data(), out);
   return {out.energy + constant_, {out.gradient[0], out.gradient[1], out.gradient[2]}};
 }
 
@@ -83,18 +84,20 @@ double ProbeField::energy(const Point& position) const {
 void ProbeField::energies(std::span<const double> positions, std::span<double> out) const {
   std::vector<double> wrapped(positions.begin(), positions.end());
   for (std::size_t k = 0; k < wrapped.size(); ++k) wrapped[k] = box_.wrapped(k % 3, wrapped[k]);
-  table_->lj_probe_energies({views_.data(), views_.size()}, wrapped.data(), out.size(), out.data());
+  kernels_->probe_energies({views_.data(), views_.size(), 0.0}, wrapped.data(), out.size(), out.data());
   for (double& energy : out) energy += constant_;
 }
 
 std::vector<double> ProbeField::clearances(double energy) const {
   std::vector<double> clearances;
-  for (const kernels::LjPair& pair : pairs_) clearances.push_back(std::pow(pair.c12 / energy, 1.0 / 12.0));
+  for (std::size_t b = 0; b < pairs_.size(); ++b)
+    clearances.push_back(
+        model_.form->repulsive_distance(model_.numbers(model_.pair(static_cast<std::size_t>(species_), b)), energy));
   return clearances;
 }
 
 std::size_t ProbeField::first_clear(std::span<const double> clearances, std::span<const double> positions) const {
-  return table_->lj_probe_first_clear({views_.data(), views_.size()}, clearances.data(), positions.data(), positions.size() / 3);
+  return table_->probe_first_clear({views_.data(), views_.size(), 0.0}, clearances.data(), positions.data(), positions.size() / 3);
 }
 
 void ProbeField::insert(const Point& position, int species) {

@@ -32,7 +32,7 @@ class ProbeField {
   // Of many positions, x0 y0 z0 x1 ..., to the same bits.
   void energies(std::span<const double> positions, std::span<double> out) const;
 
-  // Per species the distance at which r^-12 alone gives a probe this energy [sigma].
+  // Per species the distance at which the repulsion alone gives a probe this energy [sigma].
   std::vector<double> clearances(double energy) const;
   // The first of these positions, which are in the box, with no particle nearer than its species' clearance; their number if there
   // is none.
@@ -56,11 +56,13 @@ class ProbeField {
   Point home(const Point& position) const;
 
   const kernels::KernelTable* table_;
+  PairModel model_;
+  const kernels::PairKernels* kernels_;
   Box box_;
   int species_;
   double largest_cutoff_ = 0.0, largest_sigma_ = 0.0;
   std::vector<ProbeCells> cells_;  // by species
-  std::vector<kernels::LjPair> pairs_;
+  std::vector<kernels::PairParameters> pairs_;
   std::vector<double> tail_;  // what the energy rises by for each particle there is of a species
   double own_ = 0.0, constant_ = 0.0;
   std::vector<kernels::ProbeSpecies> views_;

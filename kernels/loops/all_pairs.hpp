@@ -1,24 +1,22 @@
-// Lennard-Jones mixtures over all pairs, each pair once: the form for small systems (a few hundred particles), where a
-// neighbour list costs more than the pairs it saves.
-//
-// Rows i are taken four at a time against vectors of columns j >= i, so that one load and one store of the columns serves
-// four rows. A species pair's parameters are constants of its loop and nothing is gathered. Positions are first divided by
-// the box lengths: the nearest image is then one instruction (reduce_to_nearest). In a cubic box everything stays in units
-// of the box length to the end; otherwise separations are scaled back, three multiplications per vector of pairs.
+#pragma once
 
 #include <type_traits>
 #include <utility>
 
-#include "kernel_declarations.hpp"
-#include "lj_pair.hpp"
+#include "loops/pair_vector.hpp"
 
+// Pair potentials over all pairs, each pair once: the loop for small systems (a few hundred particles), where a neighbour list
+// costs more than the pairs it saves.
+//
+// Rows i are taken four at a time against vectors of columns j >= i, so that one load and one store of the columns serves four
+// rows. The parameters of a species pair are constants of its loop and nothing is gathered. Positions are first divided by the box
+// lengths: the nearest image is then one instruction (reduce_to_nearest). In a cubic box everything stays in units of the box
+// length to the end; otherwise separations are scaled back, three multiplications per vector of pairs.
 namespace lanescape::kernels::LANESCAPE_ISA {
-namespace {
 
 constexpr std::size_t row_tile = 4;  // rows that share one load and store of a column vector
 static_assert(slot_padding % row_tile == 0 && slot_padding % lanes == 0);
 
-enum class Output { energy, gradient, stress };
 // Which lanes of a block of rows and columns hold real, distinct pairs: all; those of one mask for the four rows (an
 // incomplete last column vector); or a mask for each row (on the diagonal, or where rows are missing).
 enum class Masking { none, columns, rows };
@@ -28,10 +26,19 @@ struct Box {
   std::int32_t shells[3];
 };
 
-// Four rows: their positions and the gradient gathered so far.
+// Four rows: their positions and diameters, and the gradient summed so far.
 struct RowTile {
-  const double *x, *y, *z;  // scaled positions of the rows
+  const double *x, *y, *z;  // scaled positions
+  const double* diameters;  // where the form has them
   Displacement gradient[row_tile];
+};
+
+// The particles of one species: scaled positions and gradient, `slots` apart per axis.
+struct Columns {
+  const double* positions;
+  double* gradient;
+  const double* diameters;  // where the form has them
+  std::size_t slots;
 };
 
 // Where the rows and columns of an edge block are real and distinct.
@@ -41,22 +48,6 @@ struct EdgeLimits {
   std::size_t row_count;
   bool same_species;
 };
-
-// Adds one vector of pairs, given 1/r^2 (zero out of range), to the power sums; returns -u'(r)/r.
-LANESCAPE_INLINE Vector interact(const Potential& u, Vector inverse, Mask in_range, PowerSums& sums) {
-  const Vector rinv6 = inverse * inverse * inverse;
-  add_powers(sums, rinv6, in_range);
-  return force_over_r(u, inverse, rinv6);
-}
-
-template <Output output>
-LANESCAPE_INLINE void scatter(const Displacement& d, Vector w, Displacement& row, Displacement& column, Totals& totals) {
-  if constexpr (output != Output::energy) {
-    row = {multiply_add(w, d.x, row.x), multiply_add(w, d.y, row.y), multiply_add(w, d.z, row.z)};
-    column = {subtract_product(column.x, w, d.x), subtract_product(column.y, w, d.y), subtract_product(column.z, w, d.z)};
-  }
-  if constexpr (output == Output::stress) add_tensor(totals, d, w);
-}
 
 // The next image after the nearest lies across one face of the box: along the axis where that lengthens r^2 least.
 // ImageSearch::two_nearest guarantees that no second axis can bring another one into range.
@@ -88,16 +79,22 @@ LANESCAPE_INLINE void unrolled(Body body) {
 }
 
 // One vector of pairs in all its images within range.
-template <ImageSearch images, Output output, LengthUnit unit, Masking masking>
-LANESCAPE_INLINE void pair_vector(const Displacement& nearest, const Box& box, const Potential& u, Mask valid, PowerSums& sums,
-                                  Displacement& row, Displacement& column, Totals& totals) {
+template <class Form, ImageSearch images, Output output, LengthUnit unit, Masking masking>
+LANESCAPE_INLINE void pair_vector(const Displacement& nearest, const Box& box, const typename Form::Parameters& u, Vector sigma2,
+                                  Mask valid, typename Form::Sums& sums, Displacement& row, Displacement& column, Totals& totals) {
   const auto in_range = [&](Vector r2) __attribute__((always_inline)) {
-    const Mask in = less(r2, u.cutoff_squared);
+    const Mask in = Form::in_range(u, {r2, sigma2});
     if constexpr (masking != Masking::none) return both(in, valid);
     return in;
   };
   const auto add = [&](const Displacement& d, Vector r2, Mask in) __attribute__((always_inline)) {
-    scatter<output>(d, interact(u, masked_reciprocal(in, r2), in, sums), row, column, totals);
+    const auto terms = Form::terms(u, {r2, sigma2}, in);
+    Form::add(sums, u, terms, in);
+    if constexpr (!has_gradient(output)) return;
+    const Vector w = Form::force_over_r(u, terms);
+    add_scaled(row, w, d);
+    subtract_scaled(column, w, d);
+    if constexpr (output == Output::stress) add_tensor(totals, d, w);
   };
   if constexpr (images == ImageSearch::lattice) {
     for (std::int32_t a = -box.shells[0]; a <= box.shells[0]; ++a)
@@ -128,85 +125,109 @@ LANESCAPE_INLINE Mask valid_in_row(const EdgeLimits& limits, std::size_t column,
   return limits.same_species ? and_not(before(limits.column_count), before(row + 1)) : before(limits.column_count);
 }
 
-// Four rows against the column vectors [first, last) of one species block, whose scaled positions start at s and gradient at
-// g, `slots` apart per axis.
-template <ImageSearch images, Output output, LengthUnit unit, Masking masking>
-LANESCAPE_INLINE void column_loop(std::size_t first, std::size_t last, const EdgeLimits& limits, const double* s, double* g,
-                                  std::size_t slots, const Box& box, const Potential& u, RowTile& rows, PowerSums& sums,
+// Four rows against the column vectors [first, last) of one species.
+template <class Form, ImageSearch images, Output output, LengthUnit unit, Masking masking>
+LANESCAPE_INLINE void column_loop(std::size_t first, std::size_t last, const EdgeLimits& limits, const Columns& columns,
+                                  const Box& box, const typename Form::Parameters& u, RowTile& rows, typename Form::Sums& sums,
                                   Totals& totals) {
+  const std::size_t slots = columns.slots;
   for (std::size_t j = first; j < last; j += lanes) {
-    const double* sj = s + j;
-    double* gj = g + j;
+    const double* sj = columns.positions + j;
+    double* gj = columns.gradient + j;
     const Displacement column{load(sj), load(sj + slots), load(sj + 2 * slots)};
-    Displacement pull{broadcast(0.0), broadcast(0.0), broadcast(0.0)};
-    if constexpr (output != Output::energy) pull = {load(gj), load(gj + slots), load(gj + 2 * slots)};
+    Displacement g{broadcast(0.0), broadcast(0.0), broadcast(0.0)};
+    if constexpr (has_gradient(output)) g = {load(gj), load(gj + slots), load(gj + 2 * slots)};
     const Mask in_block = lanes_below(static_cast<std::ptrdiff_t>(limits.column_count) - static_cast<std::ptrdiff_t>(j));
     unrolled<row_tile>([&](auto r) __attribute__((always_inline)) {
       const Mask valid = masking == Masking::rows ? valid_in_row(limits, j, limits.first_row + r) : in_block;
       Displacement d{reduce_to_nearest(column.x - broadcast(rows.x[r])), reduce_to_nearest(column.y - broadcast(rows.y[r])),
                      reduce_to_nearest(column.z - broadcast(rows.z[r]))};
       if constexpr (unit == LengthUnit::sigma) d = {d.x * box.length.x, d.y * box.length.y, d.z * box.length.z};
-      pair_vector<images, output, unit, masking>(d, box, u, valid, sums, rows.gradient[r], pull, totals);
+      Vector sigma2{};
+      if constexpr (Form::has_diameters) sigma2 = Form::sigma_squared(u, broadcast(rows.diameters[r]), load(columns.diameters + j));
+      pair_vector<Form, images, output, unit, masking>(d, box, u, sigma2, valid, sums, rows.gradient[r], g, totals);
     });
-    if constexpr (output != Output::energy) {
-      store(gj, pull.x);
-      store(gj + slots, pull.y);
-      store(gj + 2 * slots, pull.z);
+    if constexpr (has_gradient(output)) {
+      store(gj, g.x);
+      store(gj + slots, g.y);
+      store(gj + 2 * slots, g.z);
     }
   }
 }
 
-template <ImageSearch images, Output output, LengthUnit unit>
-LANESCAPE_INLINE void tile_against_block(const LjInput& in, const SpeciesBlock& block, const EdgeLimits& limits, double* gradient,
-                                         const Box& box, const Potential& u, RowTile& rows, Totals& totals) {
-  PowerSums sums;
+template <class Form, ImageSearch images, Output output, LengthUnit unit>
+LANESCAPE_INLINE void tile_against_block(const Columns& columns, const SpeciesBlock& block, const EdgeLimits& limits,
+                                         const Box& box, const typename Form::Parameters& u, RowTile& rows, Totals& totals) {
+  typename Form::Sums sums;
   const auto loop = [&]<Masking masking>(std::size_t first, std::size_t last) __attribute__((always_inline)) {
-    column_loop<images, output, unit, masking>(first, last, limits, in.scratch + block.begin, gradient + block.begin, in.slots, box,
-                                               u, rows, sums, totals);
+    column_loop<Form, images, output, unit, masking>(first, last, limits, columns, box, u, rows, sums, totals);
   };
   const std::size_t padded = (block.count + lanes - 1) / lanes * lanes;
-  const std::size_t whole = block.count / lanes * lanes;
-  const std::size_t past_diagonal = (limits.first_row + row_tile + lanes - 1) / lanes * lanes;
-  std::size_t clear = limits.same_species ? past_diagonal : 0;
-  if (limits.first_row + row_tile > limits.row_count) clear = padded;
-  loop.template operator()<Masking::rows>(limits.first_column, clear);
-  loop.template operator()<Masking::none>(clear, whole);
-  loop.template operator()<Masking::columns>(clear > whole ? clear : whole, padded);
+  if constexpr (images == ImageSearch::lattice) {
+    loop.template operator()<Masking::rows>(limits.first_column, padded);
+  } else {
+    const std::size_t whole = block.count / lanes * lanes;
+    const std::size_t past_diagonal = (limits.first_row + row_tile + lanes - 1) / lanes * lanes;
+    std::size_t clear = limits.same_species ? past_diagonal : 0;
+    if (limits.first_row + row_tile > limits.row_count) clear = padded;
+    loop.template operator()<Masking::rows>(limits.first_column, clear);
+    loop.template operator()<Masking::none>(clear, whole);
+    loop.template operator()<Masking::columns>(clear > whole ? clear : whole, padded);
+  }
   add_sums(totals, u, sums);
 }
 
-template <Output output, LengthUnit unit>
-void all_pairs(const LjInput& in, double* gradient, PairOutput& out) {
+// Positions in box lengths, and no gradient yet.
+template <Output output>
+LANESCAPE_INLINE void start_all_pairs(const PairInput& in, double* gradient) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const Vector inverse_length = broadcast(1.0 / in.box[axis]);
     for (std::size_t i = axis * in.slots; i < (axis + 1) * in.slots; i += lanes) {
       store(in.scratch + i, load(in.positions + i) * inverse_length);
-      if constexpr (output != Output::energy) store(gradient + i, broadcast(0.0));
+      if constexpr (has_gradient(output)) store(gradient + i, broadcast(0.0));
     }
   }
+}
+
+// A tile of rows of species a against all species from a on.
+template <class Form, Output output, LengthUnit unit>
+LANESCAPE_INLINE void tile_against_all(const PairInput& in, std::size_t a, std::size_t i, double* gradient, const Box& box,
+                                       RowTile& rows, Totals& totals) {
+  for (std::size_t b = a; b < in.block_count; ++b) {
+    const SpeciesBlock& block = in.blocks[b];
+    const PairParameters& pair = in.pairs[a * in.block_count + b];
+    const auto u = Form::parameters(pair);
+    const bool same = a == b;
+    const EdgeLimits limits{i, same ? i / lanes * lanes : 0, block.count, in.blocks[a].count, same};
+    const Columns columns{in.scratch + block.begin, gradient + block.begin,
+                          Form::has_diameters ? in.diameters + block.begin : nullptr, in.slots};
+    const auto run = [&]<ImageSearch images>() __attribute__((always_inline)) {
+      tile_against_block<Form, images, output, unit>(columns, block, limits, box, u, rows, totals);
+    };
+    if (pair.images == ImageSearch::nearest) run.template operator()<ImageSearch::nearest>();
+    if (pair.images == ImageSearch::two_nearest) run.template operator()<ImageSearch::two_nearest>();
+    if constexpr (unit == LengthUnit::sigma)
+      if (pair.images == ImageSearch::lattice) run.template operator()<ImageSearch::lattice>();
+  }
+}
+
+template <class Form, Output output, LengthUnit unit>
+void all_pairs(const PairInput& in, double* gradient, PairOutput& out) {
+  start_all_pairs<output>(in, gradient);
   const Box box{{broadcast(in.box[0]), broadcast(in.box[1]), broadcast(in.box[2])}, {in.shells[0], in.shells[1], in.shells[2]}};
   Totals totals;
   for (std::size_t a = 0; a < in.block_count; ++a) {
     const SpeciesBlock& row_block = in.blocks[a];
     for (std::size_t i = 0; i < row_block.count; i += row_tile) {
       const double* x = in.scratch + row_block.begin + i;
-      const Vector zero = broadcast(0.0);
-      const Displacement none{zero, zero, zero};
-      RowTile rows{x, x + in.slots, x + 2 * in.slots, {none, none, none, none}};
-      for (std::size_t b = a; b < in.block_count; ++b) {
-        const LjPair& pair = in.pairs[a * in.block_count + b];
-        const Potential u = broadcast_potential(pair);
-        const bool same = a == b;
-        const EdgeLimits limits{i, same ? i / lanes * lanes : 0, in.blocks[b].count, row_block.count, same};
-        const auto run = [&]<ImageSearch images>() __attribute__((always_inline)) {
-          tile_against_block<images, output, unit>(in, in.blocks[b], limits, gradient, box, u, rows, totals);
-        };
-        if (pair.images == ImageSearch::nearest) run.template operator()<ImageSearch::nearest>();
-        if (pair.images == ImageSearch::two_nearest) run.template operator()<ImageSearch::two_nearest>();
-        if constexpr (unit == LengthUnit::sigma)
-          if (pair.images == ImageSearch::lattice) run.template operator()<ImageSearch::lattice>();
-      }
-      if constexpr (output != Output::energy) {
+      const Displacement none{broadcast(0.0), broadcast(0.0), broadcast(0.0)};
+      RowTile rows{x,
+                   x + in.slots,
+                   x + 2 * in.slots,
+                   Form::has_diameters ? in.diameters + row_block.begin + i : nullptr,
+                   {none, none, none, none}};
+      tile_against_all<Form, output, unit>(in, a, i, gradient, box, rows, totals);
+      if constexpr (has_gradient(output)) {
         double* g = gradient + row_block.begin + i;
         const auto& t = rows.gradient;
         reduce_add_four(g, t[0].x, t[1].x, t[2].x, t[3].x);
@@ -215,7 +236,7 @@ void all_pairs(const LjInput& in, double* gradient, PairOutput& out) {
       }
     }
   }
-  if constexpr (output != Output::energy && unit == LengthUnit::box) {
+  if constexpr (has_gradient(output) && unit == LengthUnit::box) {
     const Vector inverse_length = broadcast(1.0 / in.box[0]);
     for (std::size_t i = 0; i < 3 * in.slots; i += lanes) store(gradient + i, load(gradient + i) * inverse_length);
   }
@@ -225,24 +246,12 @@ void all_pairs(const LjInput& in, double* gradient, PairOutput& out) {
     for (std::size_t k = 0; k < 6; ++k) out.virial_tensor[k] = reduce_add(totals.tensor[k]);
 }
 
-template <Output output>
-void any_box(const LjInput& in, double* gradient, PairOutput& out) {
+template <class Form, Output output>
+LANESCAPE_INLINE void sum_all_pairs(const PairInput& in, double* gradient, PairOutput& out) {
   if (in.unit == LengthUnit::box)
-    all_pairs<output, LengthUnit::box>(in, gradient, out);
+    all_pairs<Form, output, LengthUnit::box>(in, gradient, out);
   else
-    all_pairs<output, LengthUnit::sigma>(in, gradient, out);
+    all_pairs<Form, output, LengthUnit::sigma>(in, gradient, out);
 }
-
-}  // namespace
-
-double lj_energy(const LjInput& in) noexcept {
-  PairOutput out;
-  any_box<Output::energy>(in, nullptr, out);
-  return out.energy;
-}
-
-void lj_gradient(const LjInput& in, double* gradient, PairOutput& out) noexcept { any_box<Output::gradient>(in, gradient, out); }
-
-void lj_stress(const LjInput& in, double* gradient, PairOutput& out) noexcept { any_box<Output::stress>(in, gradient, out); }
 
 }  // namespace lanescape::kernels::LANESCAPE_ISA
