@@ -26,7 +26,7 @@ class Finder {
       const Point to_finish = combine(finish_, -1.0, path_.end);
       const double distance = std::sqrt(dot(to_finish, to_finish));
       if (distance < options_.step) break;
-      if (distance < nearest - 1e-6 * options_.step) {  // rounding alone is not progress
+      if (distance < nearest - 1e-6 * options_.step) {  // a decrease by rounding is no progress
         nearest = distance;
         since_nearest = 0;
       } else if (++since_nearest >= options_.patience) {
@@ -51,7 +51,7 @@ class Finder {
   }
 
  private:
-  /// [C] Eqs. 4-7, 11-15: along the level set of V through the retreat point. Null, or why there is no step.
+  /// A step along the level set of V through the retreat point, [C] Eqs. 4-7, 11-15. Null, or why there is no step.
   const char* contour(const Point& d, Point& trial) {
     Point n(d.size());
     gradient_(path_.end, n);
@@ -69,7 +69,7 @@ class Finder {
     return "no contour trial is allowed";
   }
 
-  /// [G] Eq. 3.11: Newton steps towards V = E_L, ended by V <= E_L + dV. Null, or why there is no step.
+  /// Newton steps towards V = E_L until V <= E_L + dV, [G] Eq. 3.11. Null, or why there is no step.
   const char* escape(double trial_energy, Point& trial) {
     Point gradient(trial.size());
     for (long k = 0; k < options_.max_inner; ++k) {

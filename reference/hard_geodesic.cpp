@@ -11,8 +11,8 @@ namespace lanescape::reference {
 namespace {
 
 constexpr double kTiny = 1e-12;  // below this a vector has no direction
-// [sigma], the gap that is left by a sphere that makes way. In contact two that pass each other sideways would collide at once, by
-// rounding, and again for ever.
+// [sigma], the gap that a sphere leaves when it makes way. Two spheres that pass each other in contact would collide again and
+// again, by rounding.
 constexpr double kSlack = 1e-10;
 
 void check(const Point& start, const Point& finish, const std::vector<double>& radii, const Vector& box) {
@@ -24,7 +24,7 @@ void check(const Point& start, const Point& finish, const std::vector<double>& r
   }
 }
 
-/// The path so far, and whether it still comes nearer to its end.
+/// The path so far and its progress towards the end point.
 class Walk {
  public:
   Walk(const Point& start, const Point& finish, std::size_t record) : finish_(finish), record_(record) { path.end = start; }
@@ -34,7 +34,7 @@ class Walk {
   bool comes_nearer(double resolution, long patience) {
     const Point left = to_finish();
     const double distance = std::sqrt(dot(left, left));
-    if (distance < nearest_ - resolution) {  // rounding alone is not progress
+    if (distance < nearest_ - resolution) {  // a decrease by rounding is no progress
       nearest_ = distance;
       since_nearest_ = 0;
       return true;
@@ -73,7 +73,7 @@ class Walk {
   long since_nearest_ = 0;
 };
 
-/// [G] Eqs. 3.23-3.32. Turns the failed direct trial into an allowed one; null, or why there is none.
+/// Turns the failed direct trial into an allowed one, [G] Eqs. 3.23-3.32. Null, or why there is none.
 const char* avoid(const Point& from, Point& trial, long& trials, const std::vector<double>& radii, const Vector& box,
                   const AvoidanceOptions& options) {
   Point sum(from.size(), 0.0);  // F_j
@@ -102,7 +102,7 @@ Vector combine(const Vector& a, double factor, const Vector& b) {
   return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
 }
 
-/// A unit vector perpendicular to the unit vector v, always the same for the same v.
+/// A unit vector perpendicular to the unit vector v; a function of v.
 Vector perpendicular(const Vector& v) {
   std::size_t least = 0;
   for (std::size_t axis = 1; axis < 3; ++axis)
@@ -122,19 +122,19 @@ class AwayStep {
 
   /// p and q are in contact and approach each other. Null, or why there is no step.
   const char* resolve(std::size_t p, std::size_t q) {
-    // At contact a sphere is in the way of one that heads for its side, and of no other. Beside each other counts as out of the
-    // way whatever rounding makes of it: the same two would meet for ever.
+    // At contact p is in the way of q if q heads for the side of p. A component of the order of rounding does not count: the same
+    // two spheres would meet without end.
     const double p_ahead = dot(between(q, p), heading(q));
     const double q_ahead = dot(between(p, q), heading(p));
     if (!(std::max(p_ahead, q_ahead) > 0.0)) return "two spheres collide and neither is in the other's way";
     const bool both = std::min(p_ahead, q_ahead) > kSlack;
     if (both ? distance_to_goal(q) < distance_to_goal(p) : q_ahead > p_ahead) std::swap(p, q);
-    // From here on p makes way and q advances.
+    // After the swap p makes way and q advances.
     const Vector v = heading(q);
     const double whole_ray = std::numeric_limits<double>::infinity();
     if (const char* failure = make_way(p, q, at(positions_, q), v, whole_ray)) return failure;
     const double projection = dot(between(q, p), v);  // [G] 5.2.1 for q at the origin
-    if (projection > 0.0)                             // else q was itself pushed past p
+    if (projection > 0.0)                             // else q has been pushed past p
       if (const char* failure = move(q, v, projection)) return failure;
     if (smallest_gap(positions_, radii_, box_) < -kSlack) return "a moved sphere overlaps";
     return nullptr;
@@ -154,19 +154,19 @@ class AwayStep {
   Vector to_goal(std::size_t j) const { return combine(at(finish_, j), -1.0, at(positions_, j)); }
   double distance_to_goal(std::size_t j) const { return std::sqrt(dot(to_goal(j), to_goal(j))); }
 
-  /// Unit vector from j to its goal; zero at the goal, where nothing is in the way.
+  /// Unit vector from j to its goal; zero at the goal, so that nothing is in the way of j.
   Vector heading(std::size_t j) const {
     const double distance = distance_to_goal(j);
     return distance < kTiny ? Vector{} : combine(Vector{}, 1.0 / distance, to_goal(j));
   }
 
-  /// To k from the nearest point of the way that starts at `origin` and goes along the unit vector v.
+  /// Separation of k from the nearest point of the segment from `origin` along the unit vector v.
   Vector from_way(std::size_t k, const Vector& origin, const Vector& v, double length) const {
     const Vector d = separation(origin, k);
     return combine(d, -std::min(dot(d, v), length), v);
   }
 
-  /// Moves p straight out of the way of q, from `origin` along v, to where they all but touch.
+  /// Moves p perpendicularly out of the way of q, which moves from `origin` along v, until the gap is kSlack.
   const char* make_way(std::size_t p, std::size_t q, const Vector& origin, const Vector& v, double length) {
     const Vector d = from_way(p, origin, v, length);
     const double distance = std::sqrt(dot(d, d));
@@ -174,9 +174,9 @@ class AwayStep {
     return move(p, e, radii_[p] + radii_[q] + kSlack - distance);
   }
 
-  /// Moves p along the unit vector and then, recursively, what is in its way. The source's cylinder ends here where the
-  /// move ends. With an endless one a sphere ahead is pushed aside by up to a diameter to make room for the shortest move:
-  /// that finds no path of 64 spheres from a packing fraction of 0.30 on, where this one does.
+  /// Moves p along the unit vector v and then, recursively, the spheres in its way. The way is a cylinder that ends where the move
+  /// ends. [G]'s cylinder has no end: it pushes spheres ahead aside by up to a diameter even for the shortest move and finds no
+  /// path of 64 spheres at packing fractions of 0.30 and above.
   const char* move(std::size_t p, const Vector& v, double length) {
     if (++moves_ > options_.max_moves) return "too many moves in one away step";
     if (++depth_ > options_.max_depth) return "spheres push each other without end";

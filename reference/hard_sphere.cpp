@@ -131,15 +131,16 @@ std::vector<double> fictitious_forces(std::span<const double> positions, std::sp
   return forces;
 }
 
-// |d + w tau| = s + a tau, squared: f(tau) = p tau^2 + 2 q tau + c = 0 with p = w2 - a^2, q = d.w - s a, c = r2 - s^2. Wanted
-// is the first tau >= 0 from which on f is negative. Without growth p = w2 and q = b.
+// |d + w tau| = s + a tau, squared: f(tau) = p tau^2 + 2 q tau + c = 0 with p = w2 - a^2, q = d.w - s a, c = r2 - s^2. The
+// collision is at the first tau >= 0 after which f is negative. Without growth p = w2 and q = b.
 // - q < 0, c <= 0: in contact or overlapping, and approaching: now.
-// - q < 0, c > 0: the smaller root where p > 0, the only positive one where p <= 0: (-q - sqrt(q^2 - p c))/p in both cases.
-//   Near contact that subtracts two nearly equal numbers, and p may vanish; the same root as c/(sqrt(q^2 - p c) - q) adds
-//   two positive ones and is as exact as c.
-// - q >= 0, p >= 0: f does not fall; never.
-// - q >= 0, p < 0: the surfaces part at first and growth wins in the end; f falls through zero at the larger root,
-//   (-q - sqrt(q^2 - p c))/p, here without cancellation. No root: they overlap for ever.
+// - q < 0, c > 0: the smaller root if p > 0, the only positive one if p <= 0: (-q - sqrt(q^2 - p c))/p in both cases. Near contact
+// this
+//   formula subtracts two nearly equal numbers, and p may vanish; c/(sqrt(q^2 - p c) - q), the same root, adds two positive ones
+//   and is as exact as c.
+// - q >= 0, p >= 0: f does not decrease; never.
+// - q >= 0, p < 0: the surfaces separate at first and meet later because of growth; f falls through zero at the larger root,
+//   (-q - sqrt(q^2 - p c))/p, here without cancellation. If there is no root they overlap at all times.
 double collision_time(const FreeSphere& i, const FreeSphere& j, double now, const Vector& box) {
   const Vector d = separation(position_at(i, now).data(), position_at(j, now).data(), box);
   Vector w;
@@ -156,7 +157,7 @@ double collision_time(const FreeSphere& i, const FreeSphere& j, double now, cons
   if (discriminant < 0.0) return kInfinity;
   const double root = std::sqrt(discriminant);
   const double tau = q < 0.0 ? c / (root - q) : (-q - root) / p;
-  if (s + a * tau < 0.0) return kInfinity;  // shrinking spheres that have vanished: a root of the square alone
+  if (s + a * tau < 0.0) return kInfinity;  // the spheres have shrunk to nothing: a root of the square only
   return now + std::max(tau, 0.0);
 }
 

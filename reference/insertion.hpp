@@ -30,7 +30,7 @@ struct Probed {
 /// growth of the long-range correction. All images count, whatever the box. Throws as pair_sum() does.
 Probe probe(const Probed& probed, const Particles& fluid, const PairMixture& mixture);
 
-/// Whether no particle, nor any of its images, is nearer to `position` than the clearance of its species [sigma].
+/// Whether all particles and their images are at least the clearance of their species from `position` [sigma].
 bool is_clear(const Vector& position, std::span<const double> clearances, std::span<const double> positions,
               std::span<const int> species, const Vector& box);
 
@@ -43,7 +43,8 @@ struct UsherRule {
 };
 Vector usher_step(const UsherRule& rule, double energy, const Vector& gradient);
 
-/// One trial of direct USHER from `start`: ends where |U - U0| <= tolerance, at the first uphill move, or after `most` evaluations.
+/// One trial of direct USHER from `start`. It ends when |U - U0| <= tolerance, at the first uphill move, or after `most`
+/// evaluations.
 struct UsherTrial {
   bool found = false;
   Vector position{};

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-/// What both reference path finders need of 3N-vectors.
+/// Algebra of 3N-vectors and sums along a path, for the reference path finders.
 namespace lanescape::reference {
 
 using Point = std::vector<double>;
@@ -22,7 +22,7 @@ inline Point combine(const Point& a, double factor, const Point& b) {
   return result;
 }
 
-/// (sum_j dr_j^2)^2 / sum_j dr_j^4 over particles j, [G] Eq. 4.17; of a unit vector, so that nothing underflows
+/// (sum_j dr_j^2)^2 / sum_j dr_j^4 over particles j, [G] Eq. 4.17. Give it a unit vector, so that the powers do not underflow.
 inline double participation_number(const Point& step) {
   double second = 0.0;
   double fourth = 0.0;
@@ -34,7 +34,7 @@ inline double participation_number(const Point& step) {
   return second * second / fourth;
 }
 
-/// Length of a path and its participation number, the mean over steps weighted with their lengths.
+/// Length of a path, and its participation number: the mean over steps, weighted with their lengths.
 class PathSum {
  public:
   void add(const Point& step) {

@@ -19,7 +19,7 @@ struct Pair {
   double r;
 };
 
-// What both forms share: the input, and what a pair or a site contributes.
+// The input, and the terms of a pair and of a site, for both ways of summing.
 class Evaluator {
  public:
   Evaluator(std::span<const double> positions, std::span<const int> species, const StateSystem& system,
@@ -61,7 +61,7 @@ class Evaluator {
     }
   }
 
-  // One end of a pair at fixed p: half its energy, and the gradient of i.
+  // A pair as seen from i, at fixed p: half its energy and the gradient of i.
   void add_pair_energy(std::size_t i, const StateNeighbour& j) {
     const Pair ij = pair(i, j);
     if (ij.r >= cutoff(i, j.site)) return;
@@ -77,7 +77,7 @@ class Evaluator {
     add_force(i, ij, slope);
   }
 
-  // mu p + T p ln p; where p is 0, so is p ln p.
+  // mu p + T p ln p; p ln p is 0 if p is.
   void add_one_body_energy(std::size_t i) {
     for (std::size_t a = 0; a < system_.states; ++a) {
       const StateProbability& state = sites_[i].states[a];
@@ -88,12 +88,12 @@ class Evaluator {
     }
   }
 
-  // lambda_i = sum_a dU/dp_ia dp_ia/drho_i, by going through the neighbours of i.
+  // lambda_i = sum_a dU/dp_ia dp_ia/drho_i, a sum over the neighbours of i.
   double multiplier(std::size_t i) const {
     double lambda = 0.0;
     for (std::size_t a = 0; a < system_.states; ++a) {
       const StateProbability& state = sites_[i].states[a];
-      if (state.slope == 0.0) continue;  // saturated: ln p may be without bounds
+      if (state.slope == 0.0) continue;  // saturated: ln p may be infinite
       double slope = mu(i, a) + system_.entropy_temperature * (state.logarithm + 1.0);
       for (const StateNeighbour& j : neighbours_[i]) {
         const double r = pair(i, j).r;
@@ -105,7 +105,7 @@ class Evaluator {
     return lambda;
   }
 
-  // The gradient of i through the densities of both ends of a pair.
+  // The gradient of i through the densities of i and j.
   void add_density_force(std::size_t i, const StateNeighbour& j, double lambda_i, double lambda_j) {
     const Pair ij = pair(i, j);
     add_force(i, ij,
@@ -134,7 +134,7 @@ class Evaluator {
     return r < system_.switching_cutoff[species] ? system_.switching[species](r) : Radial{};
   }
 
-  // Of a pair seen from one of its ends: its gradient, and half its virial.
+  // A pair as seen from i: the gradient of i and half the virial.
   void add_force(std::size_t i, const Pair& ij, double slope) {
     const double over_r = slope / ij.r;
     for (std::size_t k = 0; k < 3; ++k) sum_.gradient[3 * i + k] += over_r * ij.d[k];
@@ -213,13 +213,13 @@ RadialFunction tapered_switch(double threshold, double width, double cutoff) {
 ProbabilityFunction tanh_cascade(std::vector<double> thresholds, std::vector<double> widths) {
   return [=](double density, std::span<StateProbability> states) {
     for (StateProbability& state : states) state = {};
-    // What is left after the states before: probability, its derivative and its logarithm.
+    // The probability of all further states, its derivative and its logarithm.
     StateProbability rest{1.0, 0.0, 0.0};
     for (std::size_t a = 0; a < thresholds.size(); ++a) {
       const double x = (density - thresholds[a]) / widths[a];
       const double above = 1.0 / (1.0 + std::exp(-2.0 * x)), below = 1.0 / (1.0 + std::exp(2.0 * x));
       const double slope = 2.0 * above * below / widths[a];
-      // ln above - ln below = 2 x, so that neither is ever the logarithm of zero.
+      // ln above - ln below = 2 x, so no logarithm of zero is taken.
       const double log_above = x > 0.0 ? -std::log1p(std::exp(-2.0 * x)) : 2.0 * x - std::log1p(std::exp(2.0 * x));
       states[a] = {rest.p * above, rest.slope * above + rest.p * slope, rest.logarithm + log_above};
       rest = {rest.p * below, rest.slope * below - rest.p * slope, rest.logarithm + log_above - 2.0 * x};

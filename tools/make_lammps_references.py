@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Writes energies, virials and forces that LAMMPS finds for pair potentials, to compare the scalar reference with.
 
-Usage: /usr/bin/python3 tools/make_lammps_references.py [FOLDER]     (default: tests/data; needs numpy and lmp of Debian's package lammps)
+Usage: /usr/bin/python3 tools/make_lammps_references.py [FOLDER]     (default: tests/data)
 
-Reads configurations of FOLDER and writes FOLDER/lammps_pairs.json: for each potential its parameters as the reference takes them, the
-LAMMPS commands, and the results. Units are `lj`, all periodic images within the cutoff count.
+Needs numpy and the program lmp of Debian's package lammps. Reads configurations of FOLDER and writes FOLDER/lammps_pairs.json: for
+each potential the reference's parameters, the LAMMPS commands, and the results. Units are `lj`; all periodic images within the
+cutoff count.
 """
 
 import argparse
@@ -41,7 +42,7 @@ def coefficients(style, text, epsilon, sigma, cutoff):
     lines = []
     for a, b in EPSILON:
         values = {"e": epsilon[a, b], "s": sigma[a, b], "c": cutoff[a, b], "exp": np.exp, "radius": RADIUS}
-        numbers = " ".join(repr(float(eval(word, values))) for word in text.split())  # words of this file
+        numbers = " ".join(repr(float(eval(word, values))) for word in text.split())  # words of this file only
         lines.append(f"pair_coeff {a} {b} {style} {numbers}".replace("  ", " "))
     return lines
 
@@ -86,8 +87,8 @@ MIE = ("mie/cut {}", "e s 14 8 c")
 # A exp((sigma - r)/rho) - C/r^6 + D/r^8 with A = 0
 BORN_SIX = ("born {}", "0 1 0 -e*s**6 0 c")
 BORN_EIGHT = ("born {}", "0 1 0 0 e*s**8 c")
-# The attraction of another style taken away, which leaves a power.
-LJ_QUARTER, PLUS_SIX = ("lj/cut {}", "e/4 s c"), ("born {}", "0 1 0 -e*s**6 0 c")
+# A repulsion alone: the attraction of one style is cancelled by born.
+LJ_QUARTER = ("lj/cut {}", "e/4 s c")
 MIE_24_6 = ("mie/cut {}", "e/(24/18*4**(6/18)) s 24 6 c")
 YUKAWA = (f"yukawa {KAPPA} {{}}", f"e*s*exp({KAPPA}*s) c")
 
@@ -102,13 +103,14 @@ def potentials():
     yield Potential("yukawa", "shifted", [YUKAWA], cutoff=3.0, kappa=KAPPA)
     yield Potential("inverse_power", "plain", [BORN_SIX], n=6)
     yield Potential("inverse_power", "tail", [BORN_EIGHT], n=8)
-    yield Potential("inverse_power", "shifted", [LJ_QUARTER, PLUS_SIX], cutoff=1.8, n=12)
-    yield Potential("inverse_power", "shifted", [MIE_24_6, PLUS_SIX], cutoff=1.5, n=24)
+    yield Potential("inverse_power", "shifted", [LJ_QUARTER, BORN_SIX], cutoff=1.8, n=12)
+    yield Potential("inverse_power", "shifted", [MIE_24_6, BORN_SIX], cutoff=1.5, n=24)
     yield SoftSpheres("harmonic", "gran/hooke")
     yield SoftSpheres("hertzian", "gran/hertz/history")
 
 
-RESULTS = """compute virial all pressure NULL virial
+PRESSURE = " ".join(f"$(c_virial[{k}]:%.17g)" for k in (1, 2, 3, 6, 5, 4))  # xx yy zz yz xz xy
+RESULTS = f"""compute virial all pressure NULL virial
 thermo_style custom step pe c_virial[1]
 thermo_modify norm no
 dump forces all custom 1 forces id fx fy fz
@@ -116,7 +118,7 @@ dump_modify forces sort id format float %.17g
 run 0 post no
 print "version $(version)"
 print "energy $(pe:%.17g)"
-print "pressure $(c_virial[1]:%.17g) $(c_virial[2]:%.17g) $(c_virial[3]:%.17g) $(c_virial[6]:%.17g) $(c_virial[5]:%.17g) $(c_virial[4]:%.17g)"
+print "pressure {PRESSURE}"
 """
 
 

@@ -29,7 +29,7 @@ double distance(const Point& a, const Point& b) {
 double flat_energy(const Point&) { return 0.0; }
 void flat_gradient(const Point&, Point& gradient) { std::fill(gradient.begin(), gradient.end(), 0.0); }
 
-/// V = -|r_1 - r_2|, so V <= -s is the hard region |r_1 - r_2| >= s. Further particles are idle.
+/// V = -|r_1 - r_2|, so V <= -s is the region |r_1 - r_2| >= s of two hard spheres. V does not depend on further particles.
 double separation(const Point& r) {
   return std::sqrt((r[0] - r[3]) * (r[0] - r[3]) + (r[1] - r[4]) * (r[1] - r[4]) + (r[2] - r[5]) * (r[2] - r[5]));
 }
@@ -59,15 +59,14 @@ GeodesicOptions hard_spheres(double step = 1e-3) {
   return options;
 }
 
-/// PHYSICS 4, analytic check: tangents from both ends to the sphere and the arc between, in 6N coordinates.
+/// PHYSICS 6, analytic check: tangents from both ends to the sphere and the arc between, in 6N coordinates.
 double shortest(double a, double b, double s, double angle) {
-  const double bracket =
-      std::sqrt(a * a - s * s) + std::sqrt(b * b - s * s) + s * (angle - std::acos(s / a) - std::acos(s / b));
+  const double bracket = std::sqrt(a * a - s * s) + std::sqrt(b * b - s * s) + s * (angle - std::acos(s / a) - std::acos(s / b));
   return bracket / std::sqrt(2.0);
 }
 
-/// What a finder that always heads for the goal gives between ends at equal distance a: straight to contact, along the
-/// sphere until the goal is in sight, straight again.
+/// Length of a path that always heads for the goal, between ends at equal distance a: straight to contact, along the sphere to the
+/// tangent through the goal, straight to the goal.
 double greedy_slide(double a, double s, double angle) {
   const double half_chord = a * std::sin(0.5 * angle);
   const double closest = a * std::cos(0.5 * angle);
@@ -134,7 +133,7 @@ TEST(ReferenceGeodesic, ContourAndEscapeSlideAroundTwoSpheres) {
     EXPECT_NEAR(path.length, greedy_slide(3.0, 1.0, kAngle), 2e-3);
     EXPECT_GT(path.length, shortest(3.0, 3.0, 1.0, kAngle));
     EXPECT_GT(path.length, distance(start, finish));
-    EXPECT_NEAR(path.participation, 2.0, 1e-9);  // the two always move by opposite amounts
+    EXPECT_NEAR(path.participation, 2.0, 1e-9);  // both always move, by opposite vectors
     EXPECT_EQ(path.escape_steps == 0, method == Method::contour);
     EXPECT_EQ(path.contour_steps == 0, method == Method::escape);
   }
@@ -145,15 +144,14 @@ TEST(ReferenceGeodesic, ContourApproachesTheGreedySlideInProportionToTheStep) {
   const Point finish = two_spheres(3.0, 170.0);
   const double expected = greedy_slide(3.0, 1.0, kAngle);
   for (const double step : {1e-2, 1e-3, 1e-4}) {
-    const Geodesic path =
-        find_geodesic(start, finish, repulsion, repulsion_gradient, Method::contour, hard_spheres(step));
+    const Geodesic path = find_geodesic(start, finish, repulsion, repulsion_gradient, Method::contour, hard_spheres(step));
     EXPECT_NEAR(path.length, expected, 2.0 * step) << step;
   }
 }
 
 TEST(ReferenceGeodesic, AContourStepIsAsLongAsADirectStep) {
-  const Geodesic path = find_geodesic(two_spheres(3.0, 0.0), two_spheres(3.0, 170.0), repulsion, repulsion_gradient,
-                                      Method::contour, hard_spheres());
+  const Geodesic path =
+      find_geodesic(two_spheres(3.0, 0.0), two_spheres(3.0, 170.0), repulsion, repulsion_gradient, Method::contour, hard_spheres());
   const double hop = path.length - 1e-3 * static_cast<double>(path.direct_steps + path.contour_steps);
   EXPECT_GT(hop, 0.0);
   EXPECT_LT(hop, 1e-3);
@@ -162,11 +160,9 @@ TEST(ReferenceGeodesic, AContourStepIsAsLongAsADirectStep) {
 TEST(ReferenceGeodesic, AnIdleParticleChangesNothing) {
   Point start = two_spheres(3.0, 0.0);
   Point finish = two_spheres(3.0, 150.0);
-  const Geodesic two =
-      find_geodesic(start, finish, repulsion, repulsion_gradient, Method::contour, hard_spheres(1e-2));
+  const Geodesic two = find_geodesic(start, finish, repulsion, repulsion_gradient, Method::contour, hard_spheres(1e-2));
   for (Point* end : {&start, &finish}) end->insert(end->end(), {0.0, 5.0, 0.0});
-  const Geodesic three =
-      find_geodesic(start, finish, repulsion, repulsion_gradient, Method::contour, hard_spheres(1e-2));
+  const Geodesic three = find_geodesic(start, finish, repulsion, repulsion_gradient, Method::contour, hard_spheres(1e-2));
   EXPECT_EQ(two.length, three.length);
   EXPECT_EQ(two.participation, three.participation);
 }
@@ -177,7 +173,7 @@ TEST(ReferenceGeodesic, NoAcceptedConfigurationExceedsWhatTheMethodAllows) {
   for (const Method method : kMethods) {
     double worst = -std::numeric_limits<double>::infinity();
     GeodesicOptions options = hard_spheres(1e-2);
-    // A path cut short after n steps ends on the n-th accepted configuration.
+    // With a limit of n steps a path ends at its n-th accepted configuration.
     for (options.max_steps = 1; options.max_steps < 600; ++options.max_steps) {
       const Geodesic path = find_geodesic(start, finish, repulsion, repulsion_gradient, method, options);
       worst = std::max(worst, repulsion(path.end));
@@ -185,7 +181,7 @@ TEST(ReferenceGeodesic, NoAcceptedConfigurationExceedsWhatTheMethodAllows) {
     }
     EXPECT_LT(options.max_steps, 600);
     EXPECT_LE(worst, method == Method::contour ? -1.0 : -1.0 + 1e-4);
-    EXPECT_GT(worst, -1.0 - 2e-2);  // it did touch the boundary
+    EXPECT_GT(worst, -1.0 - 2e-2);  // it reaches the boundary
   }
 }
 
@@ -195,8 +191,7 @@ TEST(ReferenceGeodesic, TheLandscapeEnergyIsTheHigherOfTheEndsUnlessGiven) {
   for (const Method method : kMethods) {
     EXPECT_DOUBLE_EQ(find_geodesic(low, high, repulsion, repulsion_gradient, method).landscape_energy, -1.5);
     EXPECT_DOUBLE_EQ(find_geodesic(high, low, repulsion, repulsion_gradient, method).landscape_energy, -1.5);
-    EXPECT_EQ(
-        find_geodesic(low, high, repulsion, repulsion_gradient, method, hard_spheres()).landscape_energy, -1.0);
+    EXPECT_EQ(find_geodesic(low, high, repulsion, repulsion_gradient, method, hard_spheres()).landscape_energy, -1.0);
   }
 }
 
@@ -211,17 +206,17 @@ TEST(ReferenceGeodesic, ContourEvaluatesTheEnergyOncePerTrialAndTheGradientOnceP
     ++gradients;
     repulsion_gradient(r, g);
   };
-  const Geodesic path = find_geodesic(two_spheres(3.0, 0.0), two_spheres(3.0, 170.0), energy, gradient,
-                                      Method::contour, hard_spheres());
+  const Geodesic path =
+      find_geodesic(two_spheres(3.0, 0.0), two_spheres(3.0, 170.0), energy, gradient, Method::contour, hard_spheres());
   ASSERT_EQ(path.outcome, Outcome::reached);
   EXPECT_EQ(gradients, path.contour_steps);
-  // The sphere is convex, so that a tangential trial never fails.
+  // A tangential trial never fails because the sphere is convex.
   EXPECT_EQ(energies, path.direct_steps + 2 * path.contour_steps);
 }
 
 TEST(ReferenceGeodesic, ContourRetreatsDownTheGradientWhereTheTangentRises) {
-  // V = x^2 + y^2 <= 1 seen from inside: the tangent leaves the disc, so each contour step needs some k > 0. The
-  // goal lies outside, so the path creeps along the rim.
+  // V = x^2 + y^2 <= 1: tangents leave the disc, so each contour step needs some k > 0. The goal lies outside, so the path follows
+  // the circle.
   long energies = 0;
   const auto energy = [&](const Point& r) {
     ++energies;
@@ -235,20 +230,20 @@ TEST(ReferenceGeodesic, ContourRetreatsDownTheGradientWhereTheTangentRises) {
   const Geodesic path = find_geodesic({1.0, 0.0, 0.0}, {1.0, 2.0, 0.0}, energy, gradient, Method::contour, options);
   EXPECT_EQ(path.outcome, Outcome::step_limit);
   EXPECT_GT(path.contour_steps, 50);
-  EXPECT_GT(energies, path.direct_steps + 5 * path.contour_steps);  // the tangent rises by 5e-5, five retreats
+  EXPECT_GT(energies, path.direct_steps + 5 * path.contour_steps);  // V rises by 1e-4 along the tangent: five retreats
   EXPECT_LE(std::hypot(path.end[0], path.end[1]), 1.0);
   EXPECT_GT(std::hypot(path.end[0], path.end[1]), 0.97);
 }
 
 TEST(ReferenceGeodesic, AHeadOnObstacleStalls) {
   for (const Method method : kMethods) {
-    const Geodesic path = find_geodesic(two_spheres(3.0, 0.0), two_spheres(3.0, 180.0), repulsion, repulsion_gradient,
-                                        method, hard_spheres());
+    const Geodesic path =
+        find_geodesic(two_spheres(3.0, 0.0), two_spheres(3.0, 180.0), repulsion, repulsion_gradient, method, hard_spheres());
     EXPECT_EQ(path.outcome, Outcome::stalled);
     EXPECT_NE(std::string(path.reason), "");
     EXPECT_TRUE(std::isfinite(path.length));
     EXPECT_TRUE(std::isfinite(path.participation));
-    EXPECT_NEAR(separation(path.end), 1.0, 5e-3);  // where it stands, at contact
+    EXPECT_NEAR(separation(path.end), 1.0, 5e-3);  // it stops at contact
   }
 }
 
@@ -278,8 +273,8 @@ TEST(ReferenceGeodesic, ACapOnStepsEndsInStepLimit) {
   for (const Method method : kMethods) {
     GeodesicOptions options = hard_spheres();
     options.max_steps = 2000;
-    const Geodesic path = find_geodesic(two_spheres(3.0, 0.0), two_spheres(3.0, 170.0), repulsion,
-                                        repulsion_gradient, method, options);
+    const Geodesic path =
+        find_geodesic(two_spheres(3.0, 0.0), two_spheres(3.0, 170.0), repulsion, repulsion_gradient, method, options);
     EXPECT_EQ(path.outcome, Outcome::step_limit);
     EXPECT_EQ(path.direct_steps + path.contour_steps + path.escape_steps, 2000);
     EXPECT_GT(path.length, 1.5);
@@ -290,8 +285,8 @@ TEST(ReferenceGeodesic, ACapOnInnerIterationsStalls) {
   for (const Method method : kMethods) {
     GeodesicOptions options = hard_spheres();
     options.max_inner = 0;
-    const Geodesic path = find_geodesic(two_spheres(3.0, 0.0), two_spheres(3.0, 170.0), repulsion,
-                                        repulsion_gradient, method, options);
+    const Geodesic path =
+        find_geodesic(two_spheres(3.0, 0.0), two_spheres(3.0, 170.0), repulsion, repulsion_gradient, method, options);
     EXPECT_EQ(path.outcome, Outcome::stalled);
     EXPECT_EQ(path.contour_steps + path.escape_steps, 0);
   }
@@ -302,11 +297,10 @@ TEST(ReferenceGeodesic, EndsThatDoNotFitAreRefused) {
   EXPECT_THROW(find_geodesic(Point(4), Point(4), flat_energy, flat_gradient, Method::contour), std::invalid_argument);
   GeodesicOptions options;
   options.step = 0.0;
-  EXPECT_THROW(find_geodesic(Point(3), Point(3, 1.0), flat_energy, flat_gradient, Method::contour, options),
-               std::invalid_argument);
+  EXPECT_THROW(find_geodesic(Point(3), Point(3, 1.0), flat_energy, flat_gradient, Method::contour, options), std::invalid_argument);
 }
 
-/// Two corners of a tetrahedral cluster of four change places: the others must make way.
+/// Two particles of a tetrahedral cluster of four exchange positions: the others must make way.
 TEST(ReferenceGeodesic, ContourAndEscapeAgreeOnALennardJonesCluster) {
   const std::array<double, 3> box{20.0, 20.0, 20.0};
   const Mixture mixture{1, {1.0}, {1.0}, {2.5}};

@@ -118,7 +118,7 @@ TEST(ReferenceLennardJones, APairExactlyAtTheCutoffDoesNotInteract) {
 }
 
 TEST(ReferenceLennardJones, TheGradientIsTheDerivativeOfTheEnergy) {
-  // The tiny box has cutoff > L: every pair through several images. There the minimum rule has kinks and is left out.
+  // In the smallest box the cutoff exceeds L and each pair has several images. Minimum images have kinks there and are not tested.
   const std::vector<System> systems{rattled_fcc({2, 2, 2}, 1.6, 0.15, 2, 1), rattled_fcc({1, 1, 2}, 1.5, 0.1, 2, 2),
                                     rattled_fcc({4, 3, 3}, 1.7, 0.1, 2, 3)};
   for (const System& system : systems)
@@ -148,7 +148,7 @@ TEST(ReferenceLennardJones, TheGradientsOfAllParticlesAddUpToZero) {
   }
 }
 
-/// Energy with box, positions and, where asked, the cutoff stretched by 1 + strain along the chosen axes.
+/// Energy with box, positions and, if `stretch_cutoff`, the cutoff stretched by 1 + strain along the given axes.
 double strained_energy(const System& system, Mixture mixture, Truncation truncation, std::array<bool, 3> axes, double strain,
                        bool stretch_cutoff) {
   System stretched = system;
@@ -176,7 +176,7 @@ TEST(ReferenceLennardJones, TheShiftedVirialIsMinusThreeVTimesTheVolumeDerivativ
 }
 
 TEST(ReferenceLennardJones, ThePlainAndTailVirialsAreVolumeDerivativesWhenTheCutoffStretchesWithTheVector) {
-  // No pair then crosses the cutoff, so the jump of u there stays out, in the sum and in the tail alike.
+  // No pair crosses the cutoff then, so that the jump of u does not contribute.
   const System system = rattled_fcc({2, 2, 2}, 1.6, 0.1, 2, 7);
   for (const Truncation truncation : {Truncation::plain, Truncation::tail}) {
     const Evaluation result = evaluate(system, kob_andersen(), ImageRule::all, truncation);
@@ -197,7 +197,7 @@ TEST(ReferenceLennardJones, TheVirialIsTheTraceOfItsTensor) {
 
 TEST(ReferenceLennardJones, BothImageRulesAgreeWhenTheCutoffIsAtMostHalfTheVector) {
   System system = rattled_fcc({4, 3, 3}, 1.7, 0.15, 2, 9);
-  system.positions[0] += 3.0 * system.box[0];  // unwrapped, as along a path
+  system.positions[0] += 3.0 * system.box[0];  // unwrapped positions, as along a path
   system.positions[4] -= 2.0 * system.box[1];
   ASSERT_GE(*std::min_element(system.box.begin(), system.box.end()), 2.0 * 2.5);
   for (const Truncation truncation : kTruncations)
@@ -217,7 +217,7 @@ TEST(ReferenceLennardJones, TheImageRulesDifferWhenTheCutoffExceedsHalfTheVector
 TEST(ReferenceLennardJones, MinimumImageTakesOneImageEvenWhenMoreAreWithinTheCutoff) {
   const System system = two_particles(0.9, {2.0, 20.0, 20.0});
   EXPECT_NEAR(evaluate(system, one_component(), ImageRule::minimum, Truncation::plain).energy, u(0.9), 1e-13);
-  // 0.9 - 2 and the own images of both particles at 2 are within 2.5 as well, 0.9 + 2 is not.
+  // Images at 0.9 - 2 and both particles' own images at 2 are within 2.5; the image at 0.9 + 2 is not.
   EXPECT_NEAR(evaluate(system, one_component(), ImageRule::all, Truncation::plain).energy, u(0.9) + u(1.1) + 2.0 * u(2.0), 1e-13);
 }
 
@@ -300,7 +300,7 @@ TEST(ReferenceLennardJones, TheTailMakesTheEnergyOfACrystalNearlyIndependentOfTh
 }
 
 TEST(ReferenceLennardJones, ThePerfectKobAndersenLatticeOfEqualParticlesHasTheLatticeSumPerParticle) {
-  // All A on an ideal lattice: shells at a sqrt(k/2) with 12, 6, 24, 12, 24 neighbours are all within 2.5.
+  // All particles are A. The shells at a sqrt(k/2) with 12, 6, 24, 12 and 24 neighbours are within 2.5.
   const double constant = std::cbrt(4.0 / 1.2);
   const System system = rattled_fcc({3, 3, 3}, constant, 0.0, 1, 16);
   const std::array<double, 5> neighbours{12.0, 6.0, 24.0, 12.0, 24.0};

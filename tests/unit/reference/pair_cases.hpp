@@ -28,8 +28,8 @@ inline std::vector<NamedForm> all_forms() {
           {"polydisperse", Polydisperse{1.2, 0.95}, unlimited}};
 }
 
-constexpr Truncation kAllTruncations[] = {Truncation::shifted, Truncation::plain, Truncation::tail, Truncation::shifted_force,
-                                          Truncation::smooth};
+inline constexpr Truncation kAllTruncations[] = {Truncation::shifted, Truncation::plain, Truncation::tail,
+                                                 Truncation::shifted_force, Truncation::smooth};
 
 /// Whether the form has long-range integrals.
 inline bool has_tail(const NamedForm& form) {

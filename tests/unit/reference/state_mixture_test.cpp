@@ -3,28 +3,28 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <stdexcept>
 #include <string>
 
+#include "pair_cases.hpp"
 #include "reference/lennard_jones.hpp"
 
 namespace {
 
 using namespace lanescape::reference;
 
-using Box = std::array<double, 3>;
-
 struct Sites {
   std::vector<double> positions;
   std::vector<int> species;
-  Box box;
+  Vector box;
 };
 
 enum class Filter { every, own, cross, asymmetric };
 
-/// A jittered cubic lattice at density 0.8, every second site of the second species.
+/// A cubic lattice at density 0.8 with random displacements; with two species, every second site is of the second.
 Sites fluid(int edge, std::size_t species, unsigned seed) {
   std::mt19937 random(seed);
   const auto uniform = [&] { return 2.0 * static_cast<double>(random()) / 4294967295.0 - 1.0; };
@@ -39,13 +39,13 @@ Sites fluid(int edge, std::size_t species, unsigned seed) {
   return sites;
 }
 
-/// The middle of the widest gap between two pair distances within [from, to]: a cutoff that no pair is near to.
+/// The middle of the widest gap between pair distances within [from, to]: a cutoff with no pair near it.
 double cutoff_in_gap(const Sites& sites, double from, double to) {
   std::vector<double> r{from, to};
   const StateNeighbours neighbours = all_neighbours(sites.positions, sites.box, to);
   for (std::size_t i = 0; i < neighbours.size(); ++i)
     for (const StateNeighbour& j : neighbours[i]) {
-      Box d;
+      Vector d;
       for (std::size_t k = 0; k < 3; ++k) d[k] = sites.positions[3 * i + k] - sites.positions[3 * j.site + k] - j.shift[k];
       const double distance = std::hypot(d[0], d[1], d[2]);
       if (distance > from) r.push_back(distance);
@@ -88,7 +88,7 @@ StateSystem system_of(const Options& o, double cutoff) {
     const double density_cutoff = 2.1 - 0.2 * static_cast<double>(s);
     system.switching.push_back(tapered_switch(1.4, 0.14, density_cutoff));
     system.switching_cutoff.push_back(density_cutoff);
-    // Densities are about 8 (4 where half the sites count).
+    // Densities are about 8, or 4 if half of the sites count.
     std::vector<double> thresholds, widths;
     for (std::size_t a = 0; a + 1 < o.states; ++a) {
       thresholds.push_back(o.saturated ? 3000.0 : 6.0 - 3.0 * static_cast<double>(a));
@@ -129,12 +129,6 @@ StateEvaluation evaluate(const Sites& sites, const StateSystem& system, double r
   return three_passes(sites.positions, sites.species, system, all_neighbours(sites.positions, sites.box, reach));
 }
 
-/// (f(-2h) - 8 f(-h) + 8 f(h) - f(2h)) / 12 h.
-template <class F>
-double five_point(F f, double h) {
-  return (f(-2.0 * h) - 8.0 * f(-h) + 8.0 * f(h) - f(2.0 * h)) / (12.0 * h);
-}
-
 TEST(StateMixtureReference, ForcesAreFivePointDifferencesOfTheEnergy) {
   const Sites one = fluid(3, 1, 7), two = fluid(3, 2, 7);
   const double cutoff = cutoff_in_gap(one, 2.2, 2.6);
@@ -148,7 +142,7 @@ TEST(StateMixtureReference, ForcesAreFivePointDifferencesOfTheEnergy) {
         moved.positions[k] = sites.positions[k] + x;
         return evaluate(moved, system).energy;
       };
-      EXPECT_NEAR(e.gradient[k], five_point(energy, 4e-4), 1e-8 * e.gradient_magnitude[k / 3]) << describe(o) << ", " << k;
+      EXPECT_NEAR(e.gradient[k], derivative(energy, 4e-4), 1e-8 * e.gradient_magnitude[k / 3]) << describe(o) << ", " << k;
     }
   }
 }
@@ -167,7 +161,7 @@ TEST(StateMixtureReference, VirialIsTheVolumeDerivativeOfTheEnergy) {
     };
     // dU / d ln L = -sum r.f.
     const StateEvaluation e = evaluate(sites, system);
-    EXPECT_NEAR(-e.virial, five_point(energy, 1e-4), 1e-8 * std::max(e.magnitude, std::abs(e.virial))) << describe(o);
+    EXPECT_NEAR(-e.virial, derivative(energy, 1e-4), 1e-8 * std::max(e.magnitude, std::abs(e.virial))) << describe(o);
   }
 }
 
@@ -256,8 +250,8 @@ TEST(StateMixtureReference, SwitchReachesZeroWithTwoContinuousDerivatives) {
   EXPECT_DOUBLE_EQ(w(1.4).value, 0.5);
   EXPECT_EQ(w(2.0).value, 0.0);
   for (const double r : {1.0, 1.3, 1.7, 1.95})
-    EXPECT_NEAR(w(r).slope, five_point([&](double x) { return w(r + x).value; }, 1e-3), 1e-7 * std::abs(w(r).slope)) << r;
-  for (const double r : {1.6, 2.0}) {  // where the taper begins and where it ends
+    EXPECT_NEAR(w(r).slope, derivative([&](double x) { return w(r + x).value; }, 1e-3), 1e-7 * std::abs(w(r).slope)) << r;
+  for (const double r : {1.6, 2.0}) {  // the ends of the taper
     const double step = 1e-6, before = (w(r).slope - w(r - step).slope) / step, after = (w(r + step).slope - w(r).slope) / step;
     EXPECT_NEAR(before, after, 1e-4 * std::abs(before) + 1e-7) << r;
   }
