@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "reference/event_driven.hpp"
 #include "reference/path_sum.hpp"
 
 namespace lanescape::reference {
@@ -97,7 +98,6 @@ const char* avoid(const Point& from, Point& trial, long& trials, const std::vect
 }
 
 Vector at(const Point& positions, std::size_t j) { return {positions[3 * j], positions[3 * j + 1], positions[3 * j + 2]}; }
-double dot(const Vector& a, const Vector& b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
 Vector combine(const Vector& a, double factor, const Vector& b) {
   return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
 }

@@ -43,6 +43,4 @@ void for_each_image(const Vector& separation, const Vector& box, double reach, I
       }
 }
 
-inline double squared_length(const Vector& d) { return d[0] * d[0] + d[1] * d[1] + d[2] * d[2]; }
-
 }  // namespace lanescape::reference

@@ -13,7 +13,7 @@ namespace {
 /// One image of a particle at r, d the probe's position less r. Own images stand for half a pair and exert no force: d and -d
 /// cancel.
 void add_pair(Probe& sum, const Vector& d, const PairPotential& potential, bool own_image) {
-  const double r = std::sqrt(squared_length(d));
+  const double r = std::sqrt(dot(d, d));
   const PairValue pair = value(potential, r);
   const double weight = own_image ? 0.5 : 1.0;
   sum.energy += weight * pair.u;
@@ -29,7 +29,7 @@ void add_images(Probe& sum, const Vector& separation, const Vector& box, const P
   const double r_c = cutoff(potential);
   for_each_image(separation, box, r_c, ImageRule::all, [&](const Image& image) {
     if (itself && image.nearest) return;
-    if (!(squared_length(image.separation) >= r_c * r_c)) add_pair(sum, image.separation, potential, itself);
+    if (!(dot(image.separation, image.separation) >= r_c * r_c)) add_pair(sum, image.separation, potential, itself);
   });
 }
 
@@ -78,7 +78,7 @@ bool is_clear(const Vector& position, std::span<const double> clearances, std::s
     for (std::size_t axis = 0; axis < 3; ++axis) separation[axis] -= positions[3 * j + axis];
     bool clear = true;
     for_each_image(separation, box, clearance, ImageRule::minimum,
-                   [&](const Image& image) { clear = !(squared_length(image.separation) < clearance * clearance); });
+                   [&](const Image& image) { clear = !(dot(image.separation, image.separation) < clearance * clearance); });
     if (!clear) return false;
   }
   return true;

@@ -11,7 +11,7 @@ namespace {
 
 /// One image of the pair (i, j), d = r_i - r_j.
 void add_pair(Evaluation& sum, std::size_t i, std::size_t j, const Vector& d, const PairPotential& potential) {
-  const double r = std::sqrt(squared_length(d));
+  const double r = std::sqrt(dot(d, d));
   const double weight = i == j ? 0.5 : 1.0;  // an own image is met twice, as d and as -d
   const PairValue pair = value(potential, r);
   sum.energy += weight * pair.u;
@@ -103,7 +103,7 @@ Evaluation pair_sum(const Particles& particles, const PairMixture& mixture, Imag
       for_each_image({p[0] - q[0], p[1] - q[1], p[2] - q[2]}, particles.box, r_c, images, [&](const Image& image) {
         if (i == j && image.nearest) return;
         // A NaN goes on, so that it shows in the result.
-        if (!(squared_length(image.separation) >= r_c * r_c)) add_pair(sum, i, j, image.separation, potential);
+        if (!(dot(image.separation, image.separation) >= r_c * r_c)) add_pair(sum, i, j, image.separation, potential);
       });
     }
   add_tail(sum, particles, mixture);

@@ -46,7 +46,7 @@ class Evaluator {
   Pair pair(std::size_t i, const StateNeighbour& j) const {
     Vector d;
     for (std::size_t k = 0; k < 3; ++k) d[k] = positions_[3 * i + k] - positions_[3 * j.site + k] - j.shift[k];
-    return {d, std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2])};
+    return {d, std::sqrt(dot(d, d))};
   }
 
   // Pass 1.
@@ -161,7 +161,7 @@ StateNeighbours all_neighbours(std::span<const double> positions, const Vector& 
       for (std::size_t k = 0; k < 3; ++k) separation[k] = positions[3 * i + k] - positions[3 * j + k];
       for_each_image(separation, box, reach, ImageRule::all, [&](const Image& image) {
         if (i == j && image.nearest) return;
-        if (squared_length(image.separation) < reach * reach) neighbours[i].push_back({j, image.shift});
+        if (dot(image.separation, image.separation) < reach * reach) neighbours[i].push_back({j, image.shift});
       });
     }
   return neighbours;

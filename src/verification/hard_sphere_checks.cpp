@@ -16,6 +16,7 @@
 #include "core/random.hpp"
 #include "dynamics/event_calendar.hpp"
 #include "interaction/sphere/hard_sphere.hpp"
+#include "reference/event_driven.hpp"
 #include "reference/hard_sphere.hpp"
 #include "verification/check.hpp"
 

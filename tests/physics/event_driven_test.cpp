@@ -13,6 +13,7 @@
 #include "dispatch/isa.hpp"
 #include "dynamics/hard_sphere_start.hpp"
 #include "interaction/sphere/hard_sphere.hpp"
+#include "reference/event_driven.hpp"
 #include "reference/hard_sphere.hpp"
 
 namespace lanescape {

@@ -1,4 +1,4 @@
-#include "reference/hard_sphere.hpp"
+#include "reference/event_driven.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,6 @@
 namespace {
 
 using namespace lanescape::reference;
-
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 FreeSphere sphere(const Vector& position, const Vector& velocity, double radius = 0.5, double growth = 0.0, double time = 0.0) {
   return {position, velocity, time, radius, growth};

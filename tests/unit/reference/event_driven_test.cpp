@@ -1,4 +1,4 @@
-#include "reference/hard_sphere.hpp"
+#include "reference/event_driven.hpp"
 
 #include <gtest/gtest.h>
 

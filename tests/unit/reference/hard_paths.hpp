@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "reference/event_driven.hpp"
 #include "reference/hard_geodesic.hpp"
 
 /// Systems and lengths for tests of paths of hard spheres.
