@@ -12,6 +12,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/overloaded.hpp"
 #include "io/atomic_file.hpp"
 #include "io/extended_xyz.hpp"
 #include "io/model_file.hpp"
@@ -32,17 +33,23 @@ void write_profiles(std::ostream& out, const SlabProfiles& profiles) {
   }
 }
 
+StateMixtureModel read_model(const std::string& file) {
+  if (file.empty()) return liquid_vapour();
+  const auto refuse = [&]() -> StateMixtureModel { throw_bad_input(fmt::format("{}: a model of kind ucg is needed", file)); };
+  return std::visit(Overloaded{[](const StateMixtureModel& states) { return states; }, [&](const PairModel&) { return refuse(); },
+                               [&](const HardSphereModel&) { return refuse(); }},
+                    read_model_file(file));
+}
+
 void run(const std::string& model_file, const SlabOptions& options, const std::filesystem::path& folder) {
-  const Model model = model_file.empty() ? named_model("ucg") : read_model_file(model_file);
-  const auto* states = std::get_if<StateMixtureModel>(&model);
-  if (!states) throw_bad_input(fmt::format("{}: a model of kind ucg is needed", model_file));
+  const StateMixtureModel states = read_model(model_file);
   options.check();
   prepare_output_folder(folder);
   SilentMonitor monitor;
-  const SlabProfiles profiles = run_slab(*states, options, choose_isa("auto"), monitor);
+  const SlabProfiles profiles = run_slab(states, options, choose_isa("auto"), monitor);
   write_atomically(folder / "profiles.csv", [&](std::ostream& out) { write_profiles(out, profiles); });
   write_atomically(folder / "last.extxyz", [&](std::ostream& out) {
-    write_frame(out, profiles.last, *states, {{"temperature", fmt::format("{}", options.temperature)}});
+    write_frame(out, profiles.last, states, {{"temperature", fmt::format("{}", options.temperature)}});
   });
   fmt::print("{} samples at a kinetic temperature of {:.4f}\n", profiles.samples, profiles.temperature);
 }

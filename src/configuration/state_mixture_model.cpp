@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/overloaded.hpp"
 
 namespace lanescape {
 namespace {
@@ -55,13 +56,10 @@ void check_potential(const std::string& pair, const Model::Table& u) {
        fmt::format("pair {}: the last value of a table is {}: it must be 0, or energy is not conserved", pair, u.values.back()));
 }
 
-bool same(const Model::Potential& a, const Model::Potential& b) {
-  if (const auto* u = std::get_if<Model::LennardJones>(&a)) {
-    const auto* v = std::get_if<Model::LennardJones>(&b);
-    return v && u->epsilon == v->epsilon && u->sigma == v->sigma;
-  }
-  const auto &u = std::get<Model::Table>(a), *v = std::get_if<Model::Table>(&b);
-  return v && u.first == v->first && u.last == v->last && u.values == v->values;
+const Model::Table* table_of(const Model::Potential& potential) {
+  return std::visit(Overloaded{[](const Model::LennardJones&) -> const Model::Table* { return nullptr; },
+                               [](const Model::Table& table) { return &table; }},
+                    potential);
 }
 
 }  // namespace
@@ -76,11 +74,10 @@ double StateMixtureModel::size_of(std::size_t s, std::size_t t) const {
   double size = cutoff;
   for (std::size_t a = 0; a < states_of(s); ++a)
     for (std::size_t b = 0; b < states_of(t); ++b) {
-      const Potential& u = potentials[potential_at(s, a, t, b)];
-      if (const auto* lj = std::get_if<LennardJones>(&u))
-        size = std::min(size, lj->sigma);
-      else
-        size = std::min(size, std::max(std::get<Table>(u).first, 1e-3));
+      const double closest = std::visit(Overloaded{[](const LennardJones& lj) { return lj.sigma; },
+                                                   [](const Table& table) { return std::max(table.first, 1e-3); }},
+                                        potentials[potential_at(s, a, t, b)]);
+      size = std::min(size, closest);
     }
   return size;
 }
@@ -90,11 +87,13 @@ double StateMixtureModel::reach(std::size_t s, std::size_t t) const {
   if (filter[pair(s, t)] != 0.0) reach = states[s].switching.cutoff;
   if (filter[pair(t, s)] != 0.0) reach = std::max(reach, states[t].switching.cutoff);
   for (std::size_t a = 0; a < states_of(s); ++a)
-    for (std::size_t b = 0; b < states_of(t); ++b) {
-      const auto* table = std::get_if<Table>(&potentials[potential_at(s, a, t, b)]);
-      reach = std::max(reach, table ? table->last : cutoff);
-    }
+    for (std::size_t b = 0; b < states_of(t); ++b) reach = std::max(reach, end_of(potentials[potential_at(s, a, t, b)], cutoff));
   return reach;
+}
+
+double StateMixtureModel::end_of(const Potential& potential, double cutoff) {
+  return std::visit(Overloaded{[&](const LennardJones&) { return cutoff; }, [](const Table& table) { return table.last; }},
+                    potential);
 }
 
 void StateMixtureModel::check() const {
@@ -119,8 +118,8 @@ void StateMixtureModel::check() const {
         for (std::size_t b = 0; b < states_of(t); ++b) {
           const Potential& u = potentials[potential_at(s, a, t, b)];
           std::visit([&](const auto& form) { check_potential(names, form); }, u);
-          need(same(u, potentials[potential_at(t, b, s, a)]), fmt::format("pair {} differs from its mirror image", names));
-          const auto* table = std::get_if<Table>(&u);
+          need(u == potentials[potential_at(t, b, s, a)], fmt::format("pair {} differs from its mirror image", names));
+          const Table* table = table_of(u);
           if (!first) first = table;
           need(!table ||
                    (table->first == first->first && table->last == first->last && table->values.size() == first->values.size()),

@@ -29,10 +29,12 @@ struct StateMixtureModel : Mixture {
   };
   struct LennardJones {
     double epsilon, sigma;  // cut and shifted at `cutoff` [epsilon], [sigma]
+    bool operator==(const LennardJones&) const = default;
   };
   struct Table {
     double first, last;          // distances of the first and the last value [sigma]
     std::vector<double> values;  // at equal distances [epsilon]
+    bool operator==(const Table&) const = default;
   };
   using Potential = std::variant<LennardJones, Table>;
 
@@ -45,7 +47,7 @@ struct StateMixtureModel : Mixture {
   std::size_t pair(std::size_t s, std::size_t t) const { return s * species.size() + t; }
   std::size_t states_of(std::size_t s) const { return states[s].steps.size() + 1; }
   std::size_t most_states() const;
-  // State a of species s with state b of species t; most_states() apart, so that some places stay unused.
+  // State a of species s with state b of species t; the stride is most_states(), so some entries stay unused.
   std::size_t potential_at(std::size_t s, std::size_t a, std::size_t t, std::size_t b) const {
     return (pair(s, t) * most_states() + a) * most_states() + b;
   }
@@ -53,6 +55,8 @@ struct StateMixtureModel : Mixture {
   double size_of(std::size_t s, std::size_t t) const;
   // How far two sites of these species see each other [sigma].
   double reach(std::size_t s, std::size_t t) const;
+  // Where a potential ends: a table at its last distance, Lennard-Jones at `cutoff` [sigma].
+  static double end_of(const Potential& potential, double cutoff);
 
   // Throws Error(bad_input) unless sizes match, potentials are symmetric and every number is finite and in range.
   void check() const;

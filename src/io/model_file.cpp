@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/overloaded.hpp"
 
 namespace lanescape {
 namespace {
@@ -405,10 +406,13 @@ std::string to_toml(const HardSphereModel& model) {
 }
 
 std::string to_toml(const StateMixtureModel::Potential& potential) {
-  if (const auto* lj = std::get_if<StateMixtureModel::LennardJones>(&potential))
-    return fmt::format("epsilon = {}\nsigma = {}\n", lj->epsilon, lj->sigma);
-  const auto& table = std::get<StateMixtureModel::Table>(potential);
-  return fmt::format("first = {}\nlast = {}\nvalues = [{}]\n", table.first, table.last, fmt::join(table.values, ", "));
+  return std::visit(
+      Overloaded{
+          [](const StateMixtureModel::LennardJones& lj) { return fmt::format("epsilon = {}\nsigma = {}\n", lj.epsilon, lj.sigma); },
+          [](const StateMixtureModel::Table& table) {
+            return fmt::format("first = {}\nlast = {}\nvalues = [{}]\n", table.first, table.last, fmt::join(table.values, ", "));
+          }},
+      potential);
 }
 
 std::string to_toml(const StateMixtureModel& model) {

@@ -3,26 +3,39 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/overloaded.hpp"
 #include "landscape/pair_landscape.hpp"
 #include "landscape/state_mixture_landscape.hpp"
 
 namespace lanescape {
 
-std::unique_ptr<SoftLandscape> make_landscape(const Model& model, const Box& box, const ParticleLayout& layout, Isa isa,
-                                              const PairSearchOptions& options) {
-  if (const auto* lennard_jones = std::get_if<PairModel>(&model))
-    return std::make_unique<PairLandscape>(*lennard_jones, box, layout, isa, options);
-  const auto* states = std::get_if<StateMixtureModel>(&model);
-  if (states == nullptr)
-    throw_bad_input(fmt::format("model {} has no soft landscape: its spheres are hard", mixture_of(model).name));
+namespace {
+
+std::unique_ptr<SoftLandscape> make(const StateMixtureModel& model, const Box& box, const ParticleLayout& layout, Isa isa,
+                                    const PairSearchOptions& options) {
   if (options.precision == Precision::mixed)
-    throw_bad_input(fmt::format("mixed precision is not allowed with model {}: Lennard-Jones mixtures have it", states->name));
-  check_cutoff(*states, box);
+    throw_bad_input(fmt::format("mixed precision is not allowed with model {}: Lennard-Jones mixtures have it", model.name));
+  check_cutoff(model, box);
   StateMixture::Options with;
   with.threads = options.threads;
   with.skin = options.skin;
   if (options.search == PairSearch::all_pairs) with.search = PairSearch::all_pairs;
-  return std::make_unique<StateMixtureLandscape>(*states, box, layout, isa, with);
+  return std::make_unique<StateMixtureLandscape>(model, box, layout, isa, with);
+}
+
+}  // namespace
+
+std::unique_ptr<SoftLandscape> make_landscape(const Model& model, const Box& box, const ParticleLayout& layout, Isa isa,
+                                              const PairSearchOptions& options) {
+  using Result = std::unique_ptr<SoftLandscape>;
+  return std::visit(Overloaded{[&](const PairModel& pairs) -> Result {
+                                 return std::make_unique<PairLandscape>(pairs, box, layout, isa, options);
+                               },
+                               [&](const StateMixtureModel& states) { return make(states, box, layout, isa, options); },
+                               [](const HardSphereModel& spheres) -> Result {
+                                 throw_bad_input(fmt::format("model {} has no soft landscape: its spheres are hard", spheres.name));
+                               }},
+                    model);
 }
 
 }  // namespace lanescape

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/overloaded.hpp"
 #include "interaction/pair/pair_interaction.hpp"
 #include "interaction/sphere/hard_sphere.hpp"
 #include "landscape/pair_landscape.hpp"
@@ -246,20 +247,24 @@ DiffusionRunOptions soft_diffusion_options() {
 DiffusionRunResult run_diffusion(const Model& model, const Configuration& start, const DiffusionRunOptions& options, Isa isa,
                                  const CheckpointOptions& checkpoint, RunMonitor& monitor) {
   options.check();
-  if (const auto* hard = std::get_if<HardSphereModel>(&model)) {
-    check_no_overlap(start, kernel_table(isa));
-    return run<HardSource>(*hard, start, options, isa, checkpoint, monitor);
-  }
-  if (std::holds_alternative<StateMixtureModel>(model))
-    throw_bad_input(
-        fmt::format("diffusion of model {} is not there yet: Lennard-Jones mixtures and hard spheres are", mixture_of(model).name));
-  const auto& soft = std::get<PairModel>(model);
-  check_separations(start, soft);
-  const double steps = options.window.interval / options.equilibration.time_step;
-  if (!(steps >= 0.999 && std::fabs(steps - std::round(steps)) < 1e-6 * steps))
-    throw_bad_input(fmt::format("record interval {} is not allowed: a multiple of the time step {} is needed",
-                                options.window.interval, options.equilibration.time_step));
-  return run<SoftSource>(soft, start, options, isa, checkpoint, monitor);
+  return std::visit(
+      Overloaded{[&](const HardSphereModel& hard) {
+                   check_no_overlap(start, kernel_table(isa));
+                   return run<HardSource>(hard, start, options, isa, checkpoint, monitor);
+                 },
+                 [&](const StateMixtureModel& states) -> DiffusionRunResult {
+                   throw_bad_input(fmt::format(
+                       "diffusion of model {} is not there yet: Lennard-Jones mixtures and hard spheres are", states.name));
+                 },
+                 [&](const PairModel& soft) {
+                   check_separations(start, soft);
+                   const double steps = options.window.interval / options.equilibration.time_step;
+                   if (!(steps >= 0.999 && std::fabs(steps - std::round(steps)) < 1e-6 * steps))
+                     throw_bad_input(fmt::format("record interval {} is not allowed: a multiple of the time step {} is needed",
+                                                 options.window.interval, options.equilibration.time_step));
+                   return run<SoftSource>(soft, start, options, isa, checkpoint, monitor);
+                 }},
+      model);
 }
 
 }  // namespace lanescape

@@ -9,6 +9,7 @@
 #include <exception>
 #include <memory>
 
+#include "configuration/model_traits.hpp"
 #include "core/error.hpp"
 #include "interaction/sphere/hard_sphere.hpp"
 #include "interaction/state/state_mixture.hpp"
@@ -62,7 +63,7 @@ PreparedPair prepare(const Model& model, const ConfigurationPair& pair, std::siz
   prepared.metric.to_kinematic(prepared.start);
   prepared.metric.to_kinematic(prepared.goal);
   prepared.distance = VectorAlgebra(kernel_table(isa)).distance(prepared.start, prepared.goal);
-  if (std::holds_alternative<HardSphereModel>(model)) {
+  if (is_hard(model)) {
     if (!prepared.metric.is_euclidean())
       throw_bad_input(fmt::format("{}: hard spheres of unequal masses have no path yet: equal masses are needed", where));
     return prepared;
@@ -314,7 +315,7 @@ const char* to_string(PathMethod method) {
 bool is_hard(PathMethod method) { return method == PathMethod::avoidance || method == PathMethod::away; }
 
 void check_method(PathMethod method, const Model& model) {
-  if (is_hard(method) == std::holds_alternative<HardSphereModel>(model)) return;
+  if (is_hard(method) == is_hard(model)) return;
   throw_bad_input(
       fmt::format("method {} is not for model {}: contour and escape are for soft particles, avoidance and away for hard spheres",
                   to_string(method), mixture_of(model).name));
@@ -337,7 +338,7 @@ void check_end_points(const ConfigurationPair& pair, const Model& model, const s
   if (pair.start.positions == pair.finish.positions) throw_bad_input(where + ": the two end points coincide");
   for (const Configuration* end : {&pair.start, &pair.finish}) {
     try {
-      if (std::holds_alternative<HardSphereModel>(model))
+      if (is_hard(model))
         check_no_overlap(*end, kernel_table(available_isas().front()));
       else
         check_soft_separations(*end, model);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 
+#include "core/overloaded.hpp"
 #include "interaction/state/local_density.hpp"
 #include "interaction/state/state_mixture.hpp"
 #include "verification/check.hpp"
@@ -20,6 +21,15 @@ reference::RadialFunction table_function(const StateMixtureModel::Table& table) 
     if (r < first) return {spline->value(first) + spline->slope(first) * (r - first), spline->slope(first)};
     return {spline->value(r), spline->slope(r)};
   };
+}
+
+reference::RadialFunction radial_function(const StateMixtureModel::Potential& potential, double cutoff) {
+  return std::visit(Overloaded{[&](const StateMixtureModel::LennardJones& lj) -> reference::RadialFunction {
+                                 const auto inside = reference::shifted_lennard_jones(lj.epsilon, lj.sigma, cutoff);
+                                 return [inside, cutoff](double r) { return r < cutoff ? inside(r) : reference::Radial{}; };
+                               },
+                               [](const StateMixtureModel::Table& table) { return table_function(table); }},
+                    potential);
 }
 
 reference::RadialFunction switching_function(const StateMixtureModel::Switching& w, SwitchingForm form) {
@@ -53,8 +63,11 @@ double tensor_deviation(const std::array<double, 6>& tensor, const reference::St
 }
 
 bool has_tables(const StateMixtureModel& model) {
-  return std::any_of(model.potentials.begin(), model.potentials.end(),
-                     [](const auto& u) { return std::holds_alternative<StateMixtureModel::Table>(u); });
+  return std::any_of(model.potentials.begin(), model.potentials.end(), [](const auto& u) {
+    return std::visit(Overloaded{[](const StateMixtureModel::LennardJones&) { return false; },
+                                 [](const StateMixtureModel::Table&) { return true; }},
+                      u);
+  });
 }
 
 // What the kernels of one kind of potential did.
@@ -107,16 +120,8 @@ reference::StateSystem reference_system(const StateMixtureModel& model, Switchin
             continue;
           }
           const auto& u = model.potentials[model.potential_at(s, a, t, b)];
-          if (const auto* lj = std::get_if<StateMixtureModel::LennardJones>(&u)) {
-            const auto inside = reference::shifted_lennard_jones(lj->epsilon, lj->sigma, model.cutoff);
-            system.potential.emplace_back(
-                [inside, end = model.cutoff](double r) { return r < end ? inside(r) : reference::Radial{}; });
-            cutoff = std::max(cutoff, model.cutoff);
-          } else {
-            const auto& table = std::get<StateMixtureModel::Table>(u);
-            system.potential.push_back(table_function(table));
-            cutoff = std::max(cutoff, table.last);
-          }
+          system.potential.push_back(radial_function(u, model.cutoff));
+          cutoff = std::max(cutoff, StateMixtureModel::end_of(u, model.cutoff));
         }
       system.potential_cutoff.push_back(cutoff);
     }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include "configuration/model_traits.hpp"
 #include "core/error.hpp"
 #include "end_point_options.hpp"
 #include "plot.hpp"
@@ -120,7 +121,7 @@ Json run_diffusion_command(DiffusionState& state, const Options& options, int& s
   TerminalMonitor monitor(state.common.quiet);
   const DiffusionRunResult run =
       run_diffusion(model, start, run_with, isa, {folder.checkpoints(), !state.common.resume.empty()}, monitor);
-  const bool hard = std::holds_alternative<HardSphereModel>(model);
+  const bool hard = is_hard(model);
   Json result = to_json(run, mixture_of(model), hard);
   result["model"] = mixture_of(model).name;
   if (hard) result["packing_fraction"] = packing_fraction(start);

@@ -1,3 +1,4 @@
+#include "configuration/model_traits.hpp"
 #include "end_point_options.hpp"
 
 namespace lanescape::program {
@@ -25,7 +26,7 @@ Subcommand add_endpoints(CLI::App& app) {
             OutputFolder folder = open_folder(state->common);
             folder.write_run_file("endpoints", options->resolved());
             EndPoints ends = make_end_points(model, start, protocol, isa, folder, state->common, state->system.resolve_precision());
-            if (std::holds_alternative<PairModel>(model)) ends.json["precision"] = to_string(state->system.resolve_precision());
+            if (traits_of(model).has_precision) ends.json["precision"] = to_string(state->system.resolve_precision());
             if (state->setup.radius_factor()) ends.json["radius_factor"] = *state->setup.radius_factor();
             status = ends.reached ? done : goal_not_reached;
             write_result(folder, "endpoints", options->resolved(), ends.json);

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include "configuration/model_traits.hpp"
 #include "configuration/particle_layout.hpp"
 #include "core/error.hpp"
+#include "core/overloaded.hpp"
 #include "interaction/pair/pair_interaction.hpp"
 #include "interaction/state/state_mixture.hpp"
 #include "program.hpp"
@@ -87,7 +89,7 @@ Json to_json(const EnergyResult& e, const Configuration& configuration, const Mo
   result["particles"] = configuration.size();
   result["model"] = mixture_of(model).name;
   result["isa"] = isa;
-  result["images"] = to_string(images_of(model));
+  result["images"] = to_string(traits_of(model).images);
   return result;
 }
 
@@ -98,16 +100,19 @@ struct EnergyState {
   bool forces = false, states = false;
 };
 
+[[noreturn]] void refuse_hard_spheres(const Model& model) {
+  throw_bad_input(
+      fmt::format("energy: model {} is made of hard spheres: allowed are kob-andersen, lennard-jones, ucg and model "
+                  "files of kinds lennard-jones and ucg",
+                  mixture_of(model).name));
+}
+
 Json run_energy(EnergyState& state, const Options& options) {
   state.common.check();
   const Isa isa = state.common.resolve_isa();
   const Model model = state.system.resolve();
-  if (std::holds_alternative<HardSphereModel>(model))
-    throw_bad_input(
-        fmt::format("energy: model {} is made of hard spheres: allowed are kob-andersen, lennard-jones, ucg and model "
-                    "files of kinds lennard-jones and ucg",
-                    mixture_of(model).name));
-  if (state.states && !std::holds_alternative<StateMixtureModel>(model))
+  if (is_hard(model)) refuse_hard_spheres(model);
+  if (state.states && !traits_of(model).has_states)
     throw_bad_input(fmt::format("--states is not allowed with model {}: models of kind ucg have states", mixture_of(model).name));
   if (state.backend != "simd" && state.backend != "reference")
     throw_bad_input(fmt::format("--backend: '{}' is not allowed: simd or reference", state.backend));
@@ -122,8 +127,10 @@ Json run_energy(EnergyState& state, const Options& options) {
     check_cutoff(soft, configuration.box);
     return simd ? by_kernels(soft, configuration, isa, search) : by_reference(soft, configuration);
   };
-  const auto* lennard_jones = std::get_if<PairModel>(&model);
-  const EnergyResult e = lennard_jones ? evaluate(*lennard_jones) : evaluate(std::get<StateMixtureModel>(model));
+  const EnergyResult e = std::visit(Overloaded{[&](const PairModel& pairs) { return evaluate(pairs); },
+                                               [&](const StateMixtureModel& sites) { return evaluate(sites); },
+                                               [&](const HardSphereModel&) -> EnergyResult { refuse_hard_spheres(model); }},
+                                    model);
   OutputFolder folder = open_folder(state.common);
   Json result = to_json(e, configuration, model, simd ? to_string(isa) : "reference", state.forces, state.states);
   result["precision"] = to_string(precision);

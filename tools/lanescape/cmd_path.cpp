@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "configuration/model_traits.hpp"
 #include "core/error.hpp"
 #include "end_point_options.hpp"
 #include "interaction/sphere/rounding_overlaps.hpp"
@@ -26,7 +27,7 @@ struct PathState {
 
   PathRunOptions run_options(const Model& model) const {
     PathRunOptions options;
-    options.method = parse_path_method(method.value_or(std::holds_alternative<HardSphereModel>(model) ? "avoidance" : "contour"));
+    options.method = parse_path_method(method.value_or(is_hard(model) ? "avoidance" : "contour"));
     check_method(options.method, model);
     if (options.method != PathMethod::avoidance && (avoidance_step || fictitious))
       throw_bad_input(fmt::format("{} is not allowed with method {}: it is for avoidance",
@@ -60,7 +61,7 @@ void scale_radii(ConfigurationPair& pair, double tolerance, const std::string& w
 }
 
 ConfigurationPair read_pair(const std::filesystem::path& file, const Model& model, double tolerance) {
-  const bool hard = std::holds_alternative<HardSphereModel>(model);
+  const bool hard = is_hard(model);
   std::vector<Frame> frames = read_frames(file, mixture_of(model), hard ? RadiusColumn::required : RadiusColumn::ignored);
   if (frames.size() != 2)
     throw_bad_input(fmt::format("{}: holds {} frames: a pair of end points is two", file.string(), frames.size()));
@@ -248,8 +249,8 @@ Json run_path(PathState& state, const Options& options, const Options& setup_opt
   }
   const bool all_reached = add_paths(result, paths, path_options.method, mixture) && ends_made;
   result["model"] = mixture.name;
-  if (!std::holds_alternative<HardSphereModel>(model))
-    result["images"] = to_string(images_of(model));
+  if (!is_hard(model))
+    result["images"] = to_string(traits_of(model).images);
   else if (state.setup.radius_factor())
     result["radius_factor"] = *state.setup.radius_factor();
   else if (from_files)
@@ -257,7 +258,7 @@ Json run_path(PathState& state, const Options& options, const Options& setup_opt
                                 return a.radius_factor < b.radius_factor;
                               })->radius_factor;
   result["isa"] = to_string(isa);
-  if (std::holds_alternative<PairModel>(model)) result["precision"] = to_string(path_options.precision);
+  if (traits_of(model).has_precision) result["precision"] = to_string(path_options.precision);
   status = all_reached ? done : goal_not_reached;
   if (folder.exists()) write_files(folder, paths, path_options.method, mixture);
   write_result(folder, "path", resolved, result);

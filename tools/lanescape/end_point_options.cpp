@@ -8,7 +8,9 @@
 
 #include "configuration/hard_sphere_model.hpp"
 #include "configuration/lattice.hpp"
+#include "configuration/model_traits.hpp"
 #include "core/error.hpp"
+#include "core/overloaded.hpp"
 #include "io/extended_xyz.hpp"
 
 namespace lanescape::program {
@@ -71,7 +73,7 @@ EndPointProtocol EndPointSetup::resolve(const Model& model, std::size_t particle
   const Mixture& mixture = mixture_of(model);
   std::optional<int> distance_species;
   if (!distance_species_.empty()) distance_species = mixture.find_species(distance_species_);
-  if (std::holds_alternative<HardSphereModel>(model)) {
+  if (is_hard(model)) {
     refuse({{"--density", density_.has_value()},
             {"--temperature", temperature_.has_value()},
             {"--time-step", time_step_.has_value()},
@@ -129,7 +131,7 @@ EndPointProtocol EndPointSetup::resolve(const Model& model, std::size_t particle
 }
 
 void EndPointSetup::settle(const Model& model) {
-  if (!std::holds_alternative<HardSphereModel>(model)) {
+  if (!is_hard(model)) {
     if (!temperature_) temperature_ = 1.0;
     if (!density_ && start_file_.empty()) density_ = 1.2;
   } else if (start_file_.empty()) {
@@ -140,11 +142,17 @@ void EndPointSetup::settle(const Model& model) {
 
 Configuration EndPointSetup::start(const Model& model, const CommonOptions& common, Isa isa) {
   resolve(model, particles_, common.seed);  // refuses options before there is work to wait for
-  if (!std::holds_alternative<HardSphereModel>(model)) {
-    if (start_file_.empty()) return fcc_start(mixture_of(model), particles_, density_.value_or(1.2), common.seed);
-    return read_first_frame(start_file_, model);
-  }
-  const auto& hard = std::get<HardSphereModel>(model);
+  const auto soft_start = [&](const Mixture& soft) {
+    return start_file_.empty() ? fcc_start(soft, particles_, density_.value_or(1.2), common.seed)
+                               : read_first_frame(start_file_, model);
+  };
+  return std::visit(Overloaded{[&](const PairModel& soft) { return soft_start(soft); },
+                               [&](const StateMixtureModel& soft) { return soft_start(soft); },
+                               [&](const HardSphereModel& hard) { return hard_start(hard, common, isa); }},
+                    model);
+}
+
+Configuration EndPointSetup::hard_start(const HardSphereModel& hard, const CommonOptions& common, Isa isa) {
   if (!start_file_.empty()) {
     if (packing_fraction_) throw_bad_input("--packing-fraction is not allowed with --start: the file has its own");
     Configuration start = read_hard_frame(start_file_, hard);
@@ -200,12 +208,18 @@ void write_equilibration(OutputFolder& folder, const EndPointRunResult& run, con
 
 EndPointRunResult run_protocol(const Model& model, const Configuration& start, const EndPointProtocol& protocol, Isa isa,
                                const CheckpointOptions& checkpoint, RunMonitor& monitor, int threads, Precision precision) {
-  if (const auto* hard = std::get_if<HardSphereModel>(&model))
-    return run_hard_end_points(*hard, start, std::get<HardEndPointOptions>(protocol), isa, checkpoint, monitor);
-  EndPointOptions options = std::get<EndPointOptions>(protocol);
-  options.threads = threads;
-  options.precision = precision;
-  return run_end_points(model, start, options, isa, checkpoint, monitor);
+  const auto run_soft = [&] {
+    EndPointOptions options = std::get<EndPointOptions>(protocol);
+    options.threads = threads;
+    options.precision = precision;
+    return run_end_points(model, start, options, isa, checkpoint, monitor);
+  };
+  return std::visit(Overloaded{[&](const HardSphereModel& hard) {
+                                 return run_hard_end_points(hard, start, std::get<HardEndPointOptions>(protocol), isa, checkpoint,
+                                                            monitor);
+                               },
+                               [&](const PairModel&) { return run_soft(); }, [&](const StateMixtureModel&) { return run_soft(); }},
+                    model);
 }
 
 }  // namespace
@@ -217,7 +231,7 @@ EndPoints make_end_points(const Model& model, const Configuration& start, const 
       run_protocol(model, start, protocol, isa, {folder.checkpoints(), !common.resume.empty()}, monitor, common.threads, precision),
       Json::object(), false};
   const EndPointRunResult& run = result.run;
-  const bool hard = std::holds_alternative<HardSphereModel>(model);
+  const bool hard = is_hard(model);
   result.json["pairs"] = Json::array();
   for (std::size_t k = 0; k < run.pairs.size(); ++k) {
     const ConfigurationPair& pair = run.pairs[k];

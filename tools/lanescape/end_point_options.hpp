@@ -34,6 +34,8 @@ class EndPointSetup {
   double overlap_tolerance() const { return overlap_tolerance_; }
 
  private:
+  Configuration hard_start(const HardSphereModel& hard, const CommonOptions& common, Isa isa);
+
   std::uint64_t particles_ = 108;
   std::optional<double> density_, temperature_, packing_fraction_, distance_;
   std::optional<std::string> start_method_;

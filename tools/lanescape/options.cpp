@@ -5,7 +5,9 @@
 #include <iostream>
 #include <utility>
 
+#include "configuration/model_traits.hpp"
 #include "core/error.hpp"
+#include "core/overloaded.hpp"
 #include "interaction/sphere/rounding_overlaps.hpp"
 #include "interaction/state/state_mixture.hpp"
 #include "io/extended_xyz.hpp"
@@ -50,59 +52,67 @@ namespace {
 // A file of another kind than the name that is given with it says something else than was meant.
 Model read_named(const std::string& file, const std::string& name) {
   Model model = read_model_file(file);
-  if (name == "ucg" && !std::holds_alternative<StateMixtureModel>(model))
+  if (name == "ucg" && !traits_of(model).has_states)
     throw_bad_input(fmt::format("--model ucg: {} is of another kind: a model file of kind ucg is needed", file));
   return model;
 }
 
 // The options given are not for this model.
-void refuse_options(std::initializer_list<std::pair<const char*, bool>> given, const Model& model, const char* why) {
+void refuse_options(std::initializer_list<std::pair<const char*, bool>> given, const Mixture& model, const char* why) {
   for (const auto& [option, is_given] : given)
-    if (is_given) throw_bad_input(fmt::format("{} is not allowed with model {}: {}", option, mixture_of(model).name, why));
+    if (is_given) throw_bad_input(fmt::format("{} is not allowed with model {}: {}", option, model.name, why));
 }
 
 }  // namespace
 
 Model SystemOptions::resolve() const {
   Model resolved = model_file.empty() ? named_model(model) : read_named(model_file, model);
-  if (auto* soft = std::get_if<PairModel>(&resolved)) {
-    if (cutoff) soft->cutoff = *cutoff;
-    if (images) soft->images = parse_image_rule(*images);
-    if (truncation) soft->truncation = parse_truncation(*truncation);
-    soft->check();
-    resolve_precision();
-  } else if (auto* states = std::get_if<StateMixtureModel>(&resolved)) {
-    refuse_options({{"--images", images && parse_image_rule(*images) != ImageRule::all}}, resolved, "all images count");
-    refuse_options({{"--truncation", truncation && parse_truncation(*truncation) != Truncation::shifted}}, resolved,
-                   "its potentials are shifted");
-    refuse_options({{"--precision", resolve_precision() != Precision::double_precision}}, resolved, "double precision only");
-    if (cutoff) states->cutoff = *cutoff;
-    states->check();
-  } else {
-    refuse_options({{"--cutoff", cutoff.has_value()}, {"--images", images.has_value()}, {"--truncation", truncation.has_value()}},
-                   resolved, "hard spheres have no cutoff, image rule or truncation");
-    refuse_options({{"--precision", precision.has_value()}}, resolved, "overlaps of hard spheres are decided exactly");
-  }
+  std::visit(
+      Overloaded{
+          [&](PairModel& soft) {
+            if (cutoff) soft.cutoff = *cutoff;
+            if (images) soft.images = parse_image_rule(*images);
+            if (truncation) soft.truncation = parse_truncation(*truncation);
+            soft.check();
+            resolve_precision();
+          },
+          [&](StateMixtureModel& states) {
+            refuse_options({{"--images", images && parse_image_rule(*images) != ImageRule::all}}, states, "all images count");
+            refuse_options({{"--truncation", truncation && parse_truncation(*truncation) != Truncation::shifted}}, states,
+                           "its potentials are shifted");
+            refuse_options({{"--precision", resolve_precision() != Precision::double_precision}}, states, "double precision only");
+            if (cutoff) states.cutoff = *cutoff;
+            states.check();
+          },
+          [&](HardSphereModel& hard) {
+            refuse_options(
+                {{"--cutoff", cutoff.has_value()}, {"--images", images.has_value()}, {"--truncation", truncation.has_value()}},
+                hard, "hard spheres have no cutoff, image rule or truncation");
+            refuse_options({{"--precision", precision.has_value()}}, hard, "overlaps of hard spheres are decided exactly");
+          }},
+      resolved);
   return resolved;
 }
 
 Precision SystemOptions::resolve_precision() const { return parse_precision(precision.value_or("double")); }
 
 void SystemOptions::check_precision_in(const Model& model, const Box& box, double skin) const {
-  if (const auto* soft = std::get_if<PairModel>(&model)) check_precision(*soft, box, resolve_precision(), skin);
-}
-
-ImageRule images_of(const Model& model) {
-  const auto* lennard_jones = std::get_if<PairModel>(&model);
-  return lennard_jones ? lennard_jones->images : ImageRule::all;
+  std::visit(Overloaded{[&](const PairModel& soft) { check_precision(soft, box, resolve_precision(), skin); },
+                        [](const HardSphereModel&) {}, [](const StateMixtureModel&) {}},
+             model);
 }
 
 PairModel SystemOptions::resolve_pair_model(const char* subcommand) const {
-  Model resolved = resolve();
-  if (auto* soft = std::get_if<PairModel>(&resolved)) return std::move(*soft);
-  throw_bad_input(fmt::format(
-      "{}: model {} is made of {}: allowed are kob-andersen, lennard-jones and model files of kind lennard-jones", subcommand,
-      mixture_of(resolved).name, std::holds_alternative<HardSphereModel>(resolved) ? "hard spheres" : "sites with states"));
+  const Model resolved = resolve();
+  const auto refuse = [&](const Mixture& model) -> PairModel {
+    throw_bad_input(
+        fmt::format("{}: model {} is made of {}: allowed are kob-andersen, lennard-jones and model files of kind lennard-jones",
+                    subcommand, model.name, traits_of(resolved).particles));
+  };
+  return std::visit(
+      Overloaded{[](const PairModel& soft) { return soft; }, [&](const HardSphereModel& hard) { return refuse(hard); },
+                 [&](const StateMixtureModel& states) { return refuse(states); }},
+      resolved);
 }
 
 void check_separations_in(const std::string& file, const Configuration& configuration, const Model& model) {

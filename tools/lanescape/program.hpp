@@ -137,9 +137,6 @@ struct SystemOptions {
   PairModel resolve_pair_model(const char* subcommand) const;
 };
 
-// The image rule of a soft model.
-ImageRule images_of(const Model& model);
-
 // The first frame of a file of soft particles, all of which must be sound, without overlaps; throws Error(bad_input) naming the
 // file.
 Configuration read_first_frame(const std::string& file, const Model& model);

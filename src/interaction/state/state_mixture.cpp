@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/overloaded.hpp"
 #include "interaction/pair/closest_pair.hpp"
 #include "interaction/state/local_density.hpp"
 #include "interaction/state/state_potentials.hpp"
@@ -47,14 +48,16 @@ std::vector<std::unique_ptr<StatePotential>> potentials_of(const StateMixtureMod
         for (std::size_t b = 0; b < model.states_of(t); ++b) {
           const auto& u = model.potentials[model.potential_at(s, a, t, b)];
           const std::size_t place = order.at(s, a, t, b);
-          if (const auto* lj = std::get_if<StateMixtureModel::LennardJones>(&u)) {
-            pairs[place] = {lj->epsilon, lj->sigma};
-            any_pair = true;
-          } else {
-            const auto& table = std::get<StateMixtureModel::Table>(u);
-            tables[place] = {table.first, (table.last - table.first) / static_cast<double>(table.values.size() - 1), table.values};
-            any_table = true;
-          }
+          std::visit(Overloaded{[&](const StateMixtureModel::LennardJones& lj) {
+                                  pairs[place] = {lj.epsilon, lj.sigma};
+                                  any_pair = true;
+                                },
+                                [&](const StateMixtureModel::Table& table) {
+                                  const double intervals = static_cast<double>(table.values.size() - 1);
+                                  tables[place] = {table.first, (table.last - table.first) / intervals, table.values};
+                                  any_table = true;
+                                }},
+                     u);
         }
   std::vector<std::unique_ptr<StatePotential>> potentials;
   if (any_pair)
@@ -111,8 +114,10 @@ void check_separations(const Configuration& configuration, const StateMixtureMod
 }
 
 void check_soft_separations(const Configuration& configuration, const Model& model) {
-  if (const auto* lennard_jones = std::get_if<PairModel>(&model)) check_separations(configuration, *lennard_jones);
-  if (const auto* states = std::get_if<StateMixtureModel>(&model)) check_separations(configuration, *states);
+  std::visit(
+      Overloaded{[&](const PairModel& pairs) { check_separations(configuration, pairs); },
+                 [&](const StateMixtureModel& states) { check_separations(configuration, states); }, [](const HardSphereModel&) {}},
+      model);
 }
 
 StateMixture::StateMixture(StateMixtureParts parts, const Box& box, const ParticleLayout& layout, const kernels::KernelTable& table,

@@ -1,0 +1,32 @@
+#include "configuration/model_traits.hpp"
+
+#include "core/overloaded.hpp"
+
+namespace lanescape {
+
+ModelTraits traits_of(const Model& model) {
+  return std::visit(Overloaded{[](const PairModel& pairs) {
+                                 return ModelTraits{.family = Family::soft,
+                                                    .particles = "soft particles",
+                                                    .images = pairs.images,
+                                                    .has_precision = true,
+                                                    .has_states = false};
+                               },
+                               [](const HardSphereModel&) {
+                                 return ModelTraits{.family = Family::hard,
+                                                    .particles = "hard spheres",
+                                                    .images = ImageRule::minimum,
+                                                    .has_precision = false,
+                                                    .has_states = false};
+                               },
+                               [](const StateMixtureModel&) {
+                                 return ModelTraits{.family = Family::soft,
+                                                    .particles = "sites with states",
+                                                    .images = ImageRule::all,
+                                                    .has_precision = false,
+                                                    .has_states = true};
+                               }},
+                    model);
+}
+
+}  // namespace lanescape
