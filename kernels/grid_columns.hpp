@@ -1,7 +1,7 @@
 #pragma once
 
 #include "isa.hpp"
-#include "simd_ops.hpp"
+#include "simd/simd.hpp"
 #include "views.hpp"
 
 // Which cells of a grid a sphere reaches, column by column: how far along z it reaches into a column comes from one square root for

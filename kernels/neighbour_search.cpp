@@ -5,7 +5,7 @@
 
 #include "grid_columns.hpp"
 #include "kernel_declarations.hpp"
-#include "simd_ops.hpp"
+#include "simd/simd.hpp"
 
 namespace lanescape::kernels::LANESCAPE_ISA {
 namespace {
@@ -20,9 +20,9 @@ inline std::size_t search_run(const PointGrid& grid, const Search& search, std::
                               std::uint32_t* out) noexcept {
   std::size_t found = 0;
   for (std::uint32_t k = begin; k < end; k += float_lanes) {
-    const FloatVector dx = subtract(load_anywhere(grid.x + k), search.x), dy = subtract(load_anywhere(grid.y + k), search.y),
-                      dz = subtract(load_anywhere(grid.z + k), search.z);
-    std::uint32_t mask = bits_less(square_plus(dz, square_plus(dy, multiply(dx, dx))), search.reach_squared);
+    const FloatVector dx = load_unaligned(grid.x + k) - search.x, dy = load_unaligned(grid.y + k) - search.y,
+                      dz = load_unaligned(grid.z + k) - search.z;
+    std::uint32_t mask = bits(less(multiply_add(dz, dz, multiply_add(dy, dy, dx * dx)), search.reach_squared));
     if (end - k < float_lanes) mask &= (1U << (end - k)) - 1U;
     if (search.self - k < float_lanes) mask &= ~(1U << (search.self - k));  // unsigned: below k is far above it
     found += compress_store_offsets(out + found, mask, k);
@@ -35,7 +35,7 @@ inline std::size_t search_run(const PointGrid& grid, const Search& search, std::
 std::size_t points_within(const PointGrid& grid, const NeighbourQuery& query, std::uint32_t* out, std::size_t capacity) noexcept {
   const double* position = query.position;
   const double reach = query.reach + grid_margin(grid, query.reach);
-  const auto single = [](double x) { return broadcast_float(static_cast<float>(x)); };
+  const auto single = [](double x) { return broadcast<FloatVector>(static_cast<float>(x)); };
   const Search search{single(position[0]), single(position[1]), single(position[2]), single(reach * reach), query.self};
   std::size_t found = 0;
   const bool room = for_each_column(grid, position, reach, [&](std::size_t column, std::size_t low, std::size_t high) {

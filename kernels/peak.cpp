@@ -1,7 +1,7 @@
 // The machine's own limit for the benchmarks to divide by: as many independent multiply-adds as it takes to fill the pipes.
 
 #include "kernel_declarations.hpp"
-#include "simd_ops.hpp"
+#include "simd/simd.hpp"
 
 namespace lanescape::kernels::LANESCAPE_ISA {
 

@@ -16,7 +16,7 @@ bool is_clear(const ProbeSpecies& points, double reach, const double* position) 
     const std::uint32_t* first = points.first + (cx * points.cells[1] + cy) * (points.cells[2] + 1);
     const std::uint32_t end = first[high_z + 1];
     for (std::uint32_t k = first[low_z]; k < end; k += lanes) {
-      const Displacement d{x - load_anywhere(points.x + k), y - load_anywhere(points.y + k), z - load_anywhere(points.z + k)};
+      const Displacement d{x - load_unaligned(points.x + k), y - load_unaligned(points.y + k), z - load_unaligned(points.z + k)};
       if (any(both(less(squared_length(d), limit), lanes_below(static_cast<std::ptrdiff_t>(end - k))))) return false;
     }
     return true;

@@ -3,7 +3,7 @@
 // images are fixed, so that no nearest image is searched.
 
 #include "kernel_declarations.hpp"
-#include "simd_ops.hpp"
+#include "simd/simd.hpp"
 
 namespace lanescape::kernels::LANESCAPE_ISA {
 namespace {

@@ -1,7 +1,7 @@
 // Event-driven dynamics: the first collision of one sphere among its neighbours, and the calendar of events.
 
 #include "kernel_declarations.hpp"
-#include "simd_ops.hpp"
+#include "simd/simd.hpp"
 
 namespace lanescape::kernels::LANESCAPE_ISA {
 

@@ -5,7 +5,7 @@
 // these is decided in double by the one formula that all instruction sets share.
 
 #include "kernel_declarations.hpp"
-#include "simd_ops.hpp"
+#include "simd/simd.hpp"
 
 namespace lanescape::kernels::LANESCAPE_ISA {
 namespace {
@@ -60,11 +60,11 @@ inline std::uint32_t near_columns(const SphereInput& in, const float* scale, std
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::int32_t* f = in.fractions + axis * in.float_slots;
     d[axis] = wrapped_difference(f + j, f[i]);
-    if constexpr (!cubic) d[axis] = multiply(d[axis], broadcast_float(scale[axis]));
+    if constexpr (!cubic) d[axis] = d[axis] * broadcast<FloatVector>(scale[axis]);
   }
-  const FloatVector range = add(load(in.reaches + j), broadcast_float(in.reaches[i]));
-  const FloatVector squared = square_plus(d[2], square_plus(d[1], multiply(d[0], d[0])));
-  return bits_less(squared, multiply(range, range));
+  const FloatVector range = load(in.reaches + j) + broadcast<FloatVector>(in.reaches[i]);
+  const FloatVector squared = multiply_add(d[2], d[2], multiply_add(d[1], d[1], d[0] * d[0]));
+  return bits(less(squared, range * range));
 }
 
 // Calls visit(i, j), i < j, for every pair that passes the filter, until one call returns true.

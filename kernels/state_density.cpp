@@ -53,7 +53,7 @@ LANESCAPE_INLINE Vector density_of(const Switching& w, Vector r2, Mask in_range,
   gather_quads(w.records, place, b, c, d, a);
   prefetch_for_write(slopes + write_ahead);
   // 2 dw/d(r^2) = w'(r)/r.
-  store_anywhere(slopes, where(in_range, spline_slope(place.s, b, c, d) * (w.per_unit + w.per_unit)));
+  store_unaligned(slopes, where(in_range, spline_slope(place.s, b, c, d) * (w.per_unit + w.per_unit)));
   return where(in_range, spline_value(place.s, b, c, d, a));
 }
 

@@ -2,7 +2,7 @@
 // folded in a fixed order, so that a result depends on the instruction set but on nothing else.
 
 #include "kernel_declarations.hpp"
-#include "simd_ops.hpp"
+#include "simd/simd.hpp"
 
 namespace lanescape::kernels::LANESCAPE_ISA {
 namespace {

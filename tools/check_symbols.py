@@ -14,11 +14,11 @@ import subprocess
 import sys
 from typing import NamedTuple
 
-# xsimd's architecture tags as they stand in a mangled name; simd_ops.hpp chooses them.
+# xsimd's architecture tags as they stand in a mangled name; kernels/simd/<name>.hpp chooses them.
 XSIMD_TAGS = {"sse2": ("4sse2E",), "avx2": ("4fma3I", "4avx2E"), "avx512": ("8avx512dqE",), "generic": ()}
 
 # What compilers call of themselves, and libm where an instruction set has no rounding instruction.
-FROM_LIBC = {"memcpy", "memmove", "memset", "memcmp", "nearbyint", "rint", "copysign", "fma"}
+FROM_LIBC = {"memcpy", "memmove", "memset", "memcmp", "nearbyint", "nearbyintf", "rint", "copysign", "fma"}
 FROM_TOOLCHAIN = {"_GLOBAL_OFFSET_TABLE_", "__stack_chk_fail"}
 FROM_SANITIZERS = ("__asan_", "__ubsan_", "__tsan_", "__sanitizer_")
 

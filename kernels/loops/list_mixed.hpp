@@ -36,7 +36,7 @@ LANESCAPE_INLINE void mixed_vector(const std::int32_t* points, const std::uint32
   prefetch(offsets + list_prefetch);
   gather_differences(points, offsets, row, d.x, d.y, d.z);
   if constexpr (Form::has_diameters)
-    separation.sigma2 = Form::sigma_squared(u, broadcast_float(diameter_at(row)), gather_diameters(points, offsets));
+    separation.sigma2 = Form::sigma_squared(u, broadcast<FloatVector>(diameter_at(row)), gather_diameters(points, offsets));
   separation.r2 = squared_length(d);
   const FloatMask in_range = both(valid, Form::in_range(u, separation));
   const auto terms = Form::terms(u, separation, in_range);
@@ -60,7 +60,7 @@ LANESCAPE_INLINE void mixed_rows(const PairListInput& in, double* gradient, Tota
       const auto u = Single::parameters(in.single_pairs[s]);
       const std::size_t count = *length;
       for (std::size_t j = 0; j < count; j += float_lanes)
-        mixed_vector<Single, output>(list.fixed_points, offsets + j, row, u, float_lanes_below(count - j), sums);
+        mixed_vector<Single, output>(list.fixed_points, offsets + j, row, u, lanes_below<FloatVector>(count - j), sums);
       offsets += padded_length(count);
       if constexpr (has_energy(output)) add_sums(totals, Form<Vector>::parameters(in.pairs[s]), widened(sums.pairs));
     }

@@ -3,7 +3,7 @@
 #include <type_traits>
 
 #include "isa.hpp"
-#include "simd_ops.hpp"
+#include "simd/simd.hpp"
 #include "views.hpp"
 
 // What all loops over pairs share: one vector of pairs at a time.
@@ -21,7 +21,7 @@ LANESCAPE_INLINE V broadcast_as(Number number) {
   if constexpr (std::is_same_v<V, Vector>)
     return broadcast(number);
   else
-    return broadcast_float(number);
+    return broadcast<FloatVector>(number);
 }
 template <class V>
 LANESCAPE_INLINE V zero() {
@@ -52,7 +52,7 @@ template <>
 struct PairUnit<FloatVector> {
   FloatVector sigma_squared, unit_squared;
   explicit PairUnit(const SinglePairParameters& p)
-      : sigma_squared(broadcast_float(p.sigma_squared)), unit_squared(broadcast_float(p.unit_squared)) {}
+      : sigma_squared(broadcast<FloatVector>(p.sigma_squared)), unit_squared(broadcast<FloatVector>(p.unit_squared)) {}
   LANESCAPE_INLINE FloatVector square(FloatVector r2) const { return r2 * unit_squared; }
   LANESCAPE_INLINE FloatVector inverse(FloatMask in_range, FloatVector r2) const {
     return masked_quotient(in_range, sigma_squared, r2);

@@ -19,10 +19,10 @@ LANESCAPE_INLINE void add_run(const ProbeSpecies& points, const Displacement& pr
                               const typename Form::Parameters& u, std::uint32_t begin, std::uint32_t end, ProbeSums<Form>& sums) {
   for (std::uint32_t k = begin; k < end; k += lanes) {
     // Of the probe less the point, so that the force of a pair adds to the probe's.
-    const Displacement d{probe.x - load_anywhere(points.x + k), probe.y - load_anywhere(points.y + k),
-                         probe.z - load_anywhere(points.z + k)};
+    const Displacement d{probe.x - load_unaligned(points.x + k), probe.y - load_unaligned(points.y + k),
+                         probe.z - load_unaligned(points.z + k)};
     Separation<Vector> separation{squared_length(d), {}};
-    if constexpr (Form::has_diameters) separation.sigma2 = Form::sigma_squared(u, diameter, load_anywhere(points.diameters + k));
+    if constexpr (Form::has_diameters) separation.sigma2 = Form::sigma_squared(u, diameter, load_unaligned(points.diameters + k));
     const Mask in_range = both(Form::in_range(u, separation), lanes_below(static_cast<std::ptrdiff_t>(end - k)));
     const auto terms = Form::terms(u, separation, in_range);
     Form::add(sums.pairs, u, terms, in_range);

@@ -17,9 +17,9 @@ CASES = [
     ("kernels/a.cpp", '"core/box.hpp"', False),
     ("kernels/a.cpp", "<xsimd/xsimd.hpp>", False),
     ("kernels/a.cpp", "<immintrin.h>", False),
-    ("kernels/simd_ops.hpp", "<xsimd/xsimd.hpp>", True),
-    ("kernels/simd_ops.hpp", "<immintrin.h>", True),
-    ("kernels/simd_ops.hpp", "<algorithm>", False),
+    ("kernels/simd/avx2.hpp", "<xsimd/xsimd.hpp>", True),
+    ("kernels/simd/avx2.hpp", "<immintrin.h>", True),
+    ("kernels/simd/avx2.hpp", "<algorithm>", False),
     ("reference/a.cpp", '"reference/a.hpp"', True),
     ("reference/a.cpp", "<vector>", True),
     ("reference/a.cpp", "<fmt/format.h>", False),
@@ -43,7 +43,7 @@ CASES = [
     ("src/path/a.cpp", '"kernel_table.hpp"', False),
     ("src/dispatch/a.cpp", '"kernel_table.hpp"', True),
     ("src/verification/a.cpp", '"kernel_table.hpp"', True),
-    ("src/dispatch/a.cpp", '"simd_ops.hpp"', False),
+    ("src/dispatch/a.cpp", '"simd/simd.hpp"', False),
     ("src/verification/a.cpp", '"reference/a.hpp"', True),
     ("src/run/a.cpp", '"reference/a.hpp"', False),
     ("src/interaction/a.cpp", "<xsimd/xsimd.hpp>", False),
@@ -97,7 +97,7 @@ class CheckIncludes(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.root = pathlib.Path(folder.name)
         (self.root / "src").mkdir()
-        for header in ("views.hpp", "kernel_table.hpp", "simd_ops.hpp"):
+        for header in ("views.hpp", "kernel_table.hpp", "simd/simd.hpp"):
             self.write(f"kernels/{header}", "#pragma once\n")
         self.write("src/core/box.hpp", "#pragma once\n")
 
