@@ -38,7 +38,8 @@ inline constexpr std::size_t float_lanes = lanes_of<FloatVector>;
 //   V select(m, a, b)                    a where the mask is set, b elsewhere
 //   V masked_quotient(m, a, b)           a / b where the mask is set, 0 elsewhere
 //   V masked_increment(sum, m)           sum + 1 where the mask is set, sum elsewhere
-//   V scale_by_power_of_two(v, n)        v 2^n, rounded once; n whole, |n| <= 1090 (180 for floats) (below, except on AVX-512)
+//   V scale_by_power_of_two(v, n)        v 2^n, rounded once; n whole, |n| <= 1090 (180 for floats)
+//   V exponential(v)                     e^v, at most 2 ulp off (simd/exponential.hpp)
 //
 // For doubles:
 //   reduce_to_nearest(v)                 v - nearest_whole(v): the nearest image of a separation in box lengths
@@ -118,3 +119,5 @@ inline void store_fractions(std::int32_t* out, Vector box_lengths) noexcept {
 }
 
 }  // namespace lanescape::kernels::LANESCAPE_ISA
+
+#include "simd/exponential.hpp"
