@@ -9,6 +9,7 @@ ModelTraits traits_of(const Model& model) {
                                  return ModelTraits{.family = Family::soft,
                                                     .particles = "soft particles",
                                                     .images = pairs.images,
+                                                    .sizes = SizeColumn::ignored,
                                                     .has_precision = true,
                                                     .has_states = false};
                                },
@@ -16,6 +17,7 @@ ModelTraits traits_of(const Model& model) {
                                  return ModelTraits{.family = Family::hard,
                                                     .particles = "hard spheres",
                                                     .images = ImageRule::minimum,
+                                                    .sizes = SizeColumn::radius,
                                                     .has_precision = false,
                                                     .has_states = false};
                                },
@@ -23,6 +25,7 @@ ModelTraits traits_of(const Model& model) {
                                  return ModelTraits{.family = Family::soft,
                                                     .particles = "sites with states",
                                                     .images = ImageRule::all,
+                                                    .sizes = SizeColumn::ignored,
                                                     .has_precision = false,
                                                     .has_states = true};
                                }},

@@ -11,6 +11,7 @@ struct ModelTraits {
   Family family;
   const char* particles;  // in messages: "model X is made of ..."
   ImageRule images;       // of soft models
+  SizeColumn sizes;       // what files must hold of each particle
   bool has_precision;     // single precision is possible (Precision::mixed)
   bool has_states;        // each site has state probabilities
 };

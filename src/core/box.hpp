@@ -1,22 +1,23 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
+
+#include "core/point.hpp"
 
 namespace lanescape {
 
 // An orthorhombic box, periodic along all three axes.
 struct Box {
-  std::array<double, 3> length{};  // [sigma]
+  Point length{};  // [sigma]
 
   double volume() const { return length[0] * length[1] * length[2]; }
   // The nearest image of a separation along one axis.
   double nearest_image(std::size_t axis, double separation) const {
     return separation - length[axis] * std::nearbyint(separation / length[axis]);
   }
-  // Whole boxes taken off: 0 <= x < L.
+  // x moved into the box by whole edges: 0 <= x < L.
   double wrapped(std::size_t axis, double x) const {
     x -= length[axis] * std::floor(x / length[axis]);
     return x < length[axis] ? x : 0.0;  // rounding can leave x at the far face itself

@@ -14,6 +14,9 @@
 #include "configuration/mixture.hpp"
 
 namespace lanescape {
+namespace xyz {
+struct Columns;
+}
 
 // One frame of an extended XYZ file, https://github.com/libAtoms/extxyz.
 struct Frame {
@@ -21,33 +24,31 @@ struct Frame {
   std::map<std::string, std::string> info;  // the comment line's other pairs, as text; a bare word has the value "T"
 };
 
-// Whether particles must have the column radius:R:1, which becomes Configuration::radii; ignored, it is a column like others.
-enum class RadiusColumn { ignored, required };
-
 // Reads frame by frame and holds one frame in memory. Strict: whatever could be misread throws Error(bad_input) with file and
 // line. Wanted are an orthorhombic Lattice, Properties with species:S:1 and pos:R:3 (other columns are skipped), pbc "T T T"
-// or none, the mixture's species and finite coordinates within 10^6 box lengths; positions may be unwrapped. Radii are finite and
-// above 0.
+// or none, the mixture's species and finite coordinates within 10^6 box lengths; positions may be unwrapped. With a size column,
+// each particle must have a radius or diameter, finite and above 0.
 class ExtendedXyzReader {
  public:
-  ExtendedXyzReader(std::filesystem::path path, const Mixture& mixture, RadiusColumn radius = RadiusColumn::ignored);
-  // Takes any species, at most 118, and numbers them in the order in which they appear.
-  explicit ExtendedXyzReader(std::filesystem::path path, RadiusColumn radius = RadiusColumn::ignored);
+  ExtendedXyzReader(std::filesystem::path path, const Mixture& mixture, SizeColumn size = SizeColumn::ignored);
+  // Accepts any species, at most 118, and numbers them in the order in which they appear.
+  explicit ExtendedXyzReader(std::filesystem::path path, SizeColumn size = SizeColumn::ignored);
   // The next frame; nothing at the end of the file. A file without any frame is refused.
   std::optional<Frame> next();
-  // The species there are; of a reader that takes any, those met so far.
+  // The species there are; of a reader that accepts any, those met so far.
   const Mixture& mixture() const { return mixture_; }
 
  private:
   std::optional<std::string_view> next_line();
   std::size_t line_of_count();
+  void read_particles(std::size_t count, const xyz::Columns& columns, Configuration& configuration);
   int species_of(std::string_view word);
   [[noreturn]] void refuse(const std::string& what_and_allowed) const;
 
   std::filesystem::path path_;
   Mixture mixture_;
-  bool takes_any_species_ = false;
-  RadiusColumn radius_;
+  bool accepts_any_species_ = false;
+  SizeColumn size_;
   std::ifstream in_;
   std::vector<char> buffer_;
   std::size_t line_ = 0;
@@ -55,14 +56,13 @@ class ExtendedXyzReader {
 };
 
 // The frame of a file that must hold exactly one.
-Frame read_single_frame(const std::filesystem::path& path, const Mixture& mixture, RadiusColumn radius = RadiusColumn::ignored);
+Frame read_single_frame(const std::filesystem::path& path, const Mixture& mixture, SizeColumn size = SizeColumn::ignored);
 // All frames of a file that must hold at least one.
-std::vector<Frame> read_frames(const std::filesystem::path& path, const Mixture& mixture,
-                               RadiusColumn radius = RadiusColumn::ignored);
+std::vector<Frame> read_frames(const std::filesystem::path& path, const Mixture& mixture, SizeColumn size = SizeColumn::ignored);
 
 // Writes one frame with the shortest digits that read back as the same bits. `info` must not use the names Lattice, Properties
-// and pbc. Radii, where the configuration has them, make the column radius:R:1 [sigma]. `forces`, where given, are 3N numbers in
-// the particles' order and make the column forces:R:3 [epsilon/sigma].
+// and pbc. Radii and diameters, where the configuration has them, make the columns radius:R:1 and diameter:R:1 [sigma]. `forces`,
+// where given, are 3N numbers in the particles' order and make the column forces:R:3 [epsilon/sigma].
 void write_frame(std::ostream& out, const Configuration& configuration, const Mixture& mixture,
                  const std::map<std::string, std::string>& info, const std::vector<double>* forces = nullptr);
 

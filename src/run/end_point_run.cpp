@@ -153,8 +153,8 @@ EndPointRunResult summarise(const State& state, bool interrupted, const Configur
   for (std::uint64_t phase = 0; *Generator::name(static_cast<Phase>(phase)) != 0; ++phase)
     result.phase_names.push_back(Generator::name(static_cast<Phase>(phase)));
   for (const EndPointPair& pair : state.generator.pairs())
-    result.pairs.push_back({.start = {start.box, start.species, layout.to_user(pair.start), start.radii},
-                            .finish = {start.box, start.species, layout.to_user(pair.finish), start.radii},
+    result.pairs.push_back({.start = {start.box, start.species, layout.to_user(pair.start), start.radii, start.diameters},
+                            .finish = {start.box, start.species, layout.to_user(pair.finish), start.radii, start.diameters},
                             .distance = pair.distance,
                             .steps = pair.steps,
                             .time = pair.time});

@@ -136,7 +136,8 @@ PathResult summarise(const Search<Stepper>& search, const ConfigurationPair& pai
   result.frames.push_back(reversed ? pair.finish : pair.start);
   const auto add = [&](AlignedArray q) {
     prepared.metric.to_positions(q);
-    result.frames.push_back({pair.start.box, pair.start.species, prepared.layout.to_user(q), pair.start.radii});
+    result.frames.push_back(
+        {pair.start.box, pair.start.species, prepared.layout.to_user(q), pair.start.radii, pair.start.diameters});
   };
   for (const AlignedArray& q : finder.recorder().frames()) add(q);
   if (finder.outcome() == Outcome::reached)
@@ -335,6 +336,7 @@ void check_end_points(const ConfigurationPair& pair, const Model& model, const s
   if (pair.start.species != pair.finish.species)
     throw_bad_input(where + ": the two end points differ in composition or in the order of their particles");
   if (pair.start.radii != pair.finish.radii) throw_bad_input(where + ": the two end points have different radii");
+  if (pair.start.diameters != pair.finish.diameters) throw_bad_input(where + ": the two end points have different diameters");
   if (pair.start.positions == pair.finish.positions) throw_bad_input(where + ": the two end points coincide");
   for (const Configuration* end : {&pair.start, &pair.finish}) {
     try {

@@ -62,7 +62,7 @@ void scale_radii(ConfigurationPair& pair, double tolerance, const std::string& w
 
 ConfigurationPair read_pair(const std::filesystem::path& file, const Model& model, double tolerance) {
   const bool hard = is_hard(model);
-  std::vector<Frame> frames = read_frames(file, mixture_of(model), hard ? RadiusColumn::required : RadiusColumn::ignored);
+  std::vector<Frame> frames = read_frames(file, mixture_of(model), traits_of(model).sizes);
   if (frames.size() != 2)
     throw_bad_input(fmt::format("{}: holds {} frames: a pair of end points is two", file.string(), frames.size()));
   ConfigurationPair pair{std::move(frames[0].configuration), std::move(frames[1].configuration)};

@@ -136,19 +136,19 @@ Configuration first_of(ExtendedXyzReader& reader) {
 }  // namespace
 
 Configuration read_first_frame(const std::string& file, const Model& model) {
-  ExtendedXyzReader reader(file, mixture_of(model));
+  ExtendedXyzReader reader(file, mixture_of(model), traits_of(model).sizes);
   Configuration first = first_of(reader);
   check_separations_in(file, first, model);
   return first;
 }
 
 Configuration read_hard_frame(const std::string& file) {
-  ExtendedXyzReader reader(file, RadiusColumn::required);
+  ExtendedXyzReader reader(file, SizeColumn::radius);
   return first_of(reader);
 }
 
 Configuration read_hard_frame(const std::string& file, const HardSphereModel& model) {
-  ExtendedXyzReader reader(file, model, RadiusColumn::required);
+  ExtendedXyzReader reader(file, model, SizeColumn::radius);
   return first_of(reader);
 }
 

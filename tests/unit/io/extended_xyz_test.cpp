@@ -232,24 +232,60 @@ TEST(ExtendedXyz, RadiiAreReadWhereTheyAreRequired) {
   const TemporaryFolder folder;
   const auto path = folder.file(
       "hard.extxyz", "2\n" + hard_comment("radius:R:1:id:I:1:pos:R:3:species:S:1") + "\n0.7 1 0 1 2 Xe\n+5e-1 2 1 1 2 Ar\n");
-  const Frame result = read_single_frame(path, hard_sphere_binary(), RadiusColumn::required);
+  const Frame result = read_single_frame(path, hard_sphere_binary(), SizeColumn::radius);
   EXPECT_EQ(result.configuration.radii, (std::vector<double>{0.7, 0.5}));
   EXPECT_EQ(result.configuration.species, (std::vector<int>{0, 1}));
   EXPECT_EQ(result.configuration.positions, (std::vector<double>{0, 1, 2, 1, 1, 2}));
   EXPECT_TRUE(read_single_frame(path, hard_sphere_binary()).configuration.radii.empty());
 }
 
-TEST(ExtendedXyz, AnIgnoredRadiusColumnMayHoldAnything) {
+TEST(ExtendedXyz, AnIgnoredSizeColumnMayHoldAnything) {
   const Frame result = read("1\n" + hard_comment("species:S:1:radius:S:2:pos:R:3") + "\nNi large -1 0 1 2\n");
   EXPECT_EQ(result.configuration.positions, (std::vector<double>{0, 1, 2}));
   EXPECT_TRUE(result.configuration.radii.empty());
+}
+
+std::string diameter_comment(const std::string& properties = "species:S:1:pos:R:3:diameter:R:1") {
+  return hard_comment(properties);
+}
+
+TEST(ExtendedXyz, DiametersAreReadWhereTheyAreRequired) {
+  const TemporaryFolder folder;
+  const auto path = folder.file("poly.extxyz", "2\n" + diameter_comment("species:S:1:diameter:R:1:radius:R:1:pos:R:3") +
+                                                   "\nAr 0.75 9 0 1 2\nAr 1.5 9 1 1 2\n");
+  const Configuration result = read_single_frame(path, lennard_jones(), SizeColumn::diameter).configuration;
+  EXPECT_EQ(result.diameters, (std::vector<double>{0.75, 1.5}));
+  EXPECT_TRUE(result.radii.empty());
+  EXPECT_EQ(result.positions, (std::vector<double>{0, 1, 2, 1, 1, 2}));
+}
+
+TEST(ExtendedXyz, ADiameterColumnThatIsNotNeededIsIgnored) {
+  const TemporaryFolder folder;
+  const auto path =
+      folder.file("poly.extxyz", "1\n" + diameter_comment("species:S:1:pos:R:3:radius:R:1:diameter:S:1") + "\nAr 0 1 2 0.5 big\n");
+  EXPECT_TRUE(read_single_frame(path, lennard_jones()).configuration.diameters.empty());
+  EXPECT_TRUE(read_single_frame(path, hard_sphere(), SizeColumn::radius).configuration.diameters.empty());
+}
+
+TEST(ExtendedXyz, ADiameterThatIsMissingOrNoLengthIsRefusedByLine) {
+  const auto message = [](const std::string& content) {
+    const TemporaryFolder folder;
+    const auto path = folder.file("poly.extxyz", content);
+    return refusal([&] { read_frames(path, lennard_jones(), SizeColumn::diameter); });
+  };
+  for (const std::string bad : {"nan", "0", "-1", "inf", "big"}) {
+    const std::string text = message("1\n" + diameter_comment() + "\nAr 0 1 2 " + bad + "\n");
+    expect_contains(text, "poly.extxyz:3: diameter '" + bad + "' is not allowed: a finite number above 0 is needed");
+  }
+  expect_contains(message("1\n" + comment + "\nAr 0 1 2\n"), "diameter 0 times: polydisperse models need diameter:R:1 once");
+  expect_contains(message("1\n" + diameter_comment("species:S:1:pos:R:3:diameter:I:1") + "\nAr 0 1 2 1\n"), "diameter:I:1");
 }
 
 TEST(ExtendedXyz, SpeciesNotKnownBeforehandAreNumberedInOrderOfAppearance) {
   const TemporaryFolder folder;
   const std::string particles = "\nKr 0 1 2 1\nAr 1 1 2 0.5\nKr 2 1 2 1\n";
   const auto path = folder.file("any.extxyz", "3\n" + hard_comment() + particles + "1\n" + hard_comment() + "\nXe 0 1 2 2\n");
-  ExtendedXyzReader reader(path, RadiusColumn::required);
+  ExtendedXyzReader reader(path, SizeColumn::radius);
   EXPECT_TRUE(reader.mixture().species.empty());
   EXPECT_EQ(reader.next()->configuration.species, (std::vector<int>{0, 1, 0}));
   EXPECT_EQ(reader.next()->configuration.species, (std::vector<int>{2}));
@@ -275,7 +311,7 @@ TEST_P(RadiusRefusal, NamesFileLineAndWhatIsAllowed) {
   const BadFile& bad = GetParam();
   const TemporaryFolder folder;
   const auto path = folder.file("bad.extxyz", bad.content);
-  const std::string message = refusal([&] { read_frames(path, hard_sphere(), RadiusColumn::required); });
+  const std::string message = refusal([&] { read_frames(path, hard_sphere(), SizeColumn::radius); });
   expect_contains(message, path.string() + ":" + std::to_string(bad.line) + ": ");
   expect_contains(message, bad.mentions);
 }
@@ -348,7 +384,24 @@ TEST(ExtendedXyz, RadiiAreAColumnAfterThePositions) {
             "Xe 1 2 3.5 0.7\nAr 0 0 0 0.3333333333333333\n");
   const TemporaryFolder folder;
   const auto path = folder.file("hard.extxyz", out.str());
-  EXPECT_EQ(read_single_frame(path, hard_sphere_binary(), RadiusColumn::required).configuration.radii, written.radii);
+  EXPECT_EQ(read_single_frame(path, hard_sphere_binary(), SizeColumn::radius).configuration.radii, written.radii);
+}
+
+TEST(ExtendedXyz, DiametersAreAColumnOfTheirOwn) {
+  Configuration written{Box{{4.0, 5.0, 6.0}}, {0, 0}, {1.0, 2.0, 3.5, 0.0, 0.0, 0.0}};
+  written.diameters = {0.7, 1.0 / 3.0};
+  std::ostringstream out;
+  write_frame(out, written, lennard_jones(), {});
+  EXPECT_EQ(out.str(),
+            "2\nLattice=\"4 0 0 0 5 0 0 0 6\" Properties=species:S:1:pos:R:3:diameter:R:1 pbc=\"T T T\"\n"
+            "Ar 1 2 3.5 0.7\nAr 0 0 0 0.3333333333333333\n");
+  const TemporaryFolder folder;
+  const auto path = folder.file("poly.extxyz", out.str());
+  EXPECT_EQ(read_single_frame(path, lennard_jones(), SizeColumn::diameter).configuration.diameters, written.diameters);
+  written.diameters = {0.5};
+  expect_contains(refusal([&] { write_frame(out, written, lennard_jones(), {}); }), "2 particles and 1 diameters");
+  written.diameters = {0.5, std::numeric_limits<double>::quiet_NaN()};
+  expect_contains(refusal([&] { write_frame(out, written, lennard_jones(), {}); }), "diameter nan cannot be written");
 }
 
 TEST(ExtendedXyz, RadiiThatCouldNotBeReadBackAreNotWritten) {
