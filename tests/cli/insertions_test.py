@@ -1,0 +1,108 @@
+"""Insertion into a fluid, scans of its cost and growth of a density."""
+
+import csv
+import unittest
+
+from cli_support import DATA, GROWTH, SCAN, TAIL, ProgramTest, frame, one_object, without_seconds
+
+
+class Insertions(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.fluid = DATA / "ar_dilute_63.extxyz"
+
+    def test_each_insertion_is_reported_and_the_file_has_the_fluid_with_the_particles(self):
+        for extra in ((), ("--method", "screened"), ("--method", "descent", "--measure", "absolute"), ("--energy", "-0.5")):
+            out = self.folder / f"out{len(extra)}{'-'.join(extra[1:2])}"
+            run = self.done("insert", self.fluid, *TAIL, "--count", "5", "--tolerance", "0.02", *extra, "--out", out)
+            self.assertEqual((len(run["insertions"]), run["failures"], run["particles"]), (5, 0, 68))
+            before = self.done("energy", self.fluid, *TAIL)["energy"]
+            after = self.done("energy", out / "inserted.extxyz", *TAIL)["energy"]
+            self.assertAlmostEqual(after - before, sum(i["energy"] for i in run["insertions"]), delta=1e-11)
+            scale = 1.0 if run["measure"] == "absolute" else abs(run["target"])
+            for insertion in run["insertions"]:
+                self.assertTrue({"position", "energy", "error", "evaluations", "trials", "distance"} <= set(insertion))
+                self.assertLessEqual(abs(insertion["energy"] - run["target"]), 0.02 * scale)
+                self.assertAlmostEqual(insertion["error"], (insertion["energy"] - run["target"]) / scale, delta=1e-14)
+            self.assertEqual(run["mean_evaluations"], sum(i["evaluations"] for i in run["insertions"]) / 5)
+            self.assertEqual(one_object((out / "result.json").read_text()), run)
+        mean = self.done("insert", self.fluid, *TAIL)["target"]
+        self.assertAlmostEqual(mean, before / 63, delta=1e-12)
+
+    def test_insertions_do_not_depend_on_the_number_of_threads(self):
+        runs = [without_seconds(self.done("insert", self.fluid, *TAIL, "--count", "40", "--threads", threads)) for threads in "12"]
+        self.assertEqual(*runs)
+
+    def test_a_region_is_kept_and_temperatures_give_velocities(self):
+        region = (1.0, 4.0, 2.0, 5.5, 0.0, 9.0)
+        for wall in ("reflect", "well"):
+            run = self.done("insert", self.fluid, *TAIL, "--count", "10", "--wall", wall, "--temperature", "1.5",
+                            "--region", ",".join(map(str, region)))
+            for insertion in run["insertions"]:
+                self.assertEqual(len(insertion["velocity"]), 3)
+                for axis, x in enumerate(insertion["position"]):
+                    self.assertTrue(region[2 * axis] <= x <= region[2 * axis + 1])
+
+    def test_species_are_inserted_and_removed(self):
+        mixture = DATA / "ka_dilute_50.extxyz"
+        out = self.folder / "out"
+        run = self.done("insert", mixture, "--species", "P", "--count", "2", "--energy", "-1", "--remove", "3", "--removal",
+                        "least-disturbance", "--out", out)
+        before, after = (f.read_text().split("\n")[2:] for f in (mixture, out / "inserted.extxyz"))
+        count = [sum(line.startswith("P ") for line in lines) for lines in (before, after)]
+        self.assertEqual(count[1], count[0] - 1)
+        self.assertEqual(len(run["removals"]), 3)
+        energies = [self.done("energy", f)["energy"] for f in (mixture, out / "inserted.extxyz")]
+        change = sum(i["energy"] for i in run["insertions"]) - sum(r["energy"] for r in run["removals"])
+        self.assertAlmostEqual(energies[1] - energies[0], change, delta=1e-11)
+
+    def test_a_target_that_no_place_has_ends_with_status_one_and_nothing_inserted(self):
+        out = self.folder / "out"
+        run = self.done("insert", self.fluid, *TAIL, "--energy", "-80", "--most-trials", "50", "--count", "2", "--out", out, status=1)
+        self.assertEqual((run["insertions"], run["failures"], run["mean_evaluations"], run["outcome"]), ([], 2, None, "limit of trials"))
+        self.assertFalse((out / "inserted.extxyz").exists())
+
+    def test_bad_input_is_refused(self):
+        empty = self.file("empty.xyz", frame(count=0))
+        for arguments, says in (((self.fluid, "--region", "0,5,3,2,0,5"), ("region", "y")), ((self.fluid, "--region", "0,500,0,5,0,5"), "region"),
+                                ((self.fluid, "--region", "1,2,3"), "six numbers"), ((self.fluid, "--tolerance", "0"), "tolerance"),
+                                ((self.fluid, "--tolerance", "-1"), "tolerance"), ((self.fluid, "--tolerance", "nan"), "tolerance"),
+                                ((self.fluid, "--energy", "inf"), "energy"), ((self.fluid, "--energy", "deep"), ("deep", "mean")),
+                                ((self.fluid, "--method", "newton"), ("newton", "usher, usher-indirect")),
+                                ((self.fluid, "--species", "Xx"), ("Xx", "Ar")), ((self.fluid, "--most-trials", "0"), "trials"),
+                                ((self.fluid, "--largest-step", "0"), "step"), ((self.fluid, "--removal", "all"), ("all", "random")),
+                                ((self.fluid, "--temperature", "-1"), "temperature"), ((empty,), "empty"), ((), "FILE"),
+                                (("--scan", "--states", "0.4"), "density:temperature"), (("--scan", "--states", "-0.4:1"), "density"),
+                                (("--scan", "--states", "0.4:0"), "temperature"), (("--scan", "--methods", "usher,,descent"), "--methods"),
+                                (("--scan", "--energy", "mu"), "Widom"), (("--densify", "0.3"), "density"), (("--densify", "nan"), "density"),
+                                (("--densify", "0.5", "--rate", "50"), "rate"), (("--densify", "0.5", "--time-step", "1"), "time step"),
+                                ((self.fluid, "--precision", "mixed"), "precision"), ((self.fluid, "--plot"), "--plot")):
+            with self.subTest(arguments):
+                self.refused_cleanly("insert", *TAIL, *arguments, says=says)
+        self.refused_cleanly("insert", self.fluid, "--model", "hard-sphere", says="hard spheres")
+
+    def test_a_scan_reports_every_combination_and_state(self):
+        out = self.folder / "out"
+        run = self.done(*SCAN, "--out", out)
+        self.assertEqual((len(run["scan"]), len(run["states"]), len(run["holes"]), run["failures"]), (12, 2, 4, 0))
+        for row in run["scan"]:
+            self.assertGreaterEqual(row["evaluations"], row["trials"])
+            self.assertLessEqual(abs(row["error"]), row["tolerance"])
+            self.assertEqual(row["candidates"] > 0, row["method"] == "screened")
+        rows = list(csv.DictReader((out / "scan.csv").read_text().splitlines()))
+        self.assertEqual([float(r["evaluations"]) for r in rows], [r["evaluations"] for r in run["scan"]])
+        pairs = list(csv.DictReader((out / "errors.csv").read_text().splitlines()))
+        self.assertGreater(len(pairs), 20)
+
+    def test_growth_ends_at_the_density_asked_for_and_keeps_account_of_energy(self):
+        run = self.done(*GROWTH)
+        self.assertEqual((run["particles"], run["inserted"], run["failures"], len(run["densification"])), (80, 16, 0, 4))
+        densities = [row["density"] for row in run["densification"]]
+        self.assertEqual(densities, sorted(densities))
+        for row in run["densification"]:
+            self.assertAlmostEqual(row["energy"], 1.5 * row["temperature"] + row["excess_energy"], delta=1e-9)
+            self.assertLess(abs(row["drift"]), 0.1)
+
+
+if __name__ == "__main__":
+    unittest.main()
