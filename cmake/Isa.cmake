@@ -1,47 +1,80 @@
-# lanescape_add_kernels(<target>): compiles every kernel source once per instruction set and links the objects into <target>.
-# LANESCAPE_ISAS lists the instruction sets; the portable leg is the only one off x86 and can be asked for on x86 to test it.
+# Instruction sets: reads cmake/instruction_sets.txt, writes the header dispatch/instruction_sets.hpp that C++ reads, and compiles
+# sources once per instruction set. LANESCAPE_ISAS lists those to compile; off x86 there is only the portable one.
+set(LANESCAPE_INSTRUCTION_SETS_FILE ${PROJECT_SOURCE_DIR}/cmake/instruction_sets.txt)
+set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${LANESCAPE_INSTRUCTION_SETS_FILE})
+file(STRINGS ${LANESCAPE_INSTRUCTION_SETS_FILE} lines REGEX "^[a-z]")
+set(LANESCAPE_ALL_ISAS "")
+foreach(line IN LISTS lines)
+  string(REGEX REPLACE " *\\| *" ";" fields "${line};")
+  list(GET fields 0 isa)
+  list(GET fields 1 flags)
+  list(GET fields 2 features)
+  separate_arguments(LANESCAPE_ISA_FLAGS_${isa} UNIX_COMMAND "${flags}")
+  separate_arguments(LANESCAPE_ISA_FEATURES_${isa} UNIX_COMMAND "${features}")
+  list(APPEND LANESCAPE_ALL_ISAS ${isa})
+endforeach()
+
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
-  set(LANESCAPE_ISAS "sse2;avx2;avx512" CACHE STRING "Instruction sets to compile the kernels for (generic, sse2, avx2, avx512)")
+  set(default_isas ${LANESCAPE_ALL_ISAS})
 else()
-  set(LANESCAPE_ISAS "generic" CACHE STRING "Instruction sets to compile the kernels for (generic)")
+  set(default_isas generic)
 endif()
+set(LANESCAPE_ISAS "${default_isas}" CACHE STRING "Instruction sets to compile the kernels for (${LANESCAPE_ALL_ISAS})")
+foreach(isa IN LISTS LANESCAPE_ISAS)
+  if(NOT isa IN_LIST LANESCAPE_ALL_ISAS)
+    message(FATAL_ERROR "LANESCAPE_ISAS: unknown instruction set '${isa}': allowed are ${LANESCAPE_ALL_ISAS}")
+  endif()
+endforeach()
 
-set(LANESCAPE_ISA_FLAGS_generic "")
-set(LANESCAPE_ISA_FLAGS_sse2 -msse2)
-set(LANESCAPE_ISA_FLAGS_avx2 -mavx2 -mfma)
-set(LANESCAPE_ISA_FLAGS_avx512 -mavx512f -mavx512dq -mavx512vl -mavx512bw -mavx512cd -mavx2 -mfma)
+# Targets that include dispatch/instruction_sets.hpp link this.
+set(LANESCAPE_ALL_ENTRIES "")
+set(LANESCAPE_BUILT_ENTRIES "")
+foreach(isa IN LISTS LANESCAPE_ALL_ISAS)
+  string(APPEND LANESCAPE_ALL_ENTRIES " ENTRY(${isa})")
+  if(isa IN_LIST LANESCAPE_ISAS)
+    set(supported true)
+    foreach(feature IN LISTS LANESCAPE_ISA_FEATURES_${isa})
+      string(APPEND supported " && __builtin_cpu_supports(\"${feature}\")")
+    endforeach()
+    string(APPEND LANESCAPE_BUILT_ENTRIES " ENTRY(${isa}, ${supported})")
+  endif()
+endforeach()
+set(LANESCAPE_INTERNAL_HEADERS ${PROJECT_BINARY_DIR}/generated_internal)
+configure_file(${PROJECT_SOURCE_DIR}/cmake/instruction_sets.hpp.in ${LANESCAPE_INTERNAL_HEADERS}/dispatch/instruction_sets.hpp @ONLY)
 
-function(lanescape_add_kernels target)
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/kernels/*.cpp)
+# lanescape_add_isa_objects(<name> <sources>): an object library <name>_<isa> per instruction set.
+function(lanescape_add_isa_objects name)
   foreach(isa IN LISTS LANESCAPE_ISAS)
-    if(NOT DEFINED LANESCAPE_ISA_FLAGS_${isa})
-      message(FATAL_ERROR "LANESCAPE_ISAS: unknown instruction set '${isa}': allowed are generic, sse2, avx2, avx512")
-    endif()
-    string(TOUPPER ${isa} upper)
-    add_library(lanescape_kernels_${isa} OBJECT ${sources})
-    target_include_directories(lanescape_kernels_${isa} PRIVATE ${PROJECT_SOURCE_DIR}/kernels)
-    target_compile_definitions(lanescape_kernels_${isa} PRIVATE LANESCAPE_ISA=${isa} LANESCAPE_ISA_${upper})
+    set(target ${name}_${isa})
+    add_library(${target} OBJECT ${ARGN})
+    target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/kernels)
+    target_compile_definitions(${target} PRIVATE LANESCAPE_ISA=${isa})
     # No contraction: a product and a sum are fused where the source says so and nowhere else, so that the energies of two
     # kernels agree to the bit. Hidden symbols: code compiled for one processor must not leak into the rest of the program.
     target_compile_options(
-      lanescape_kernels_${isa} PRIVATE ${LANESCAPE_ISA_FLAGS_${isa}} -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-exceptions
-                                       -fno-rtti -fvisibility=hidden -fvisibility-inlines-hidden)
+      ${target} PRIVATE ${LANESCAPE_ISA_FLAGS_${isa}} -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-exceptions -fno-rtti
+                        -fvisibility=hidden -fvisibility-inlines-hidden)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
       # GCC 12's own AVX-512 headers set a vector from itself (GCC bug 105593).
       # The notes on passing wide vectors concern calls between objects, of which these have none.
-      target_compile_options(lanescape_kernels_${isa} PRIVATE -Wno-uninitialized -Wno-maybe-uninitialized -Wno-psabi -Wno-ignored-attributes)
+      target_compile_options(${target} PRIVATE -Wno-uninitialized -Wno-maybe-uninitialized -Wno-psabi -Wno-ignored-attributes)
     endif()
     if(LANESCAPE_SANITIZE)
       # Instrumented, the forcibly inlined row loops take the compiler a quarter of an hour. The parity tests check the kernels;
       # the sanitizers check what calls them.
-      target_compile_options(lanescape_kernels_${isa} PRIVATE -fno-sanitize=all)
+      target_compile_options(${target} PRIVATE -fno-sanitize=all)
     endif()
     if(NOT isa STREQUAL "generic")
-      target_link_libraries(lanescape_kernels_${isa} PRIVATE xsimd)
+      target_link_libraries(${target} PRIVATE xsimd)
     endif()
-    target_link_libraries(lanescape_kernels_${isa} PRIVATE lanescape_warnings)
-    set_target_properties(lanescape_kernels_${isa} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-    target_sources(${target} PRIVATE $<TARGET_OBJECTS:lanescape_kernels_${isa}>)
-    target_compile_definitions(${target} PRIVATE LANESCAPE_HAS_${upper})
+    target_link_libraries(${target} PRIVATE lanescape_warnings)
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  endforeach()
+endfunction()
+
+# lanescape_link_isa_objects(<target> <name>): links the objects of all instruction sets into <target>.
+function(lanescape_link_isa_objects target name)
+  foreach(isa IN LISTS LANESCAPE_ISAS)
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${name}_${isa}>)
   endforeach()
 endfunction()

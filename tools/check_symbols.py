@@ -14,8 +14,17 @@ import subprocess
 import sys
 from typing import NamedTuple
 
-# xsimd's architecture tags as they stand in a mangled name; kernels/simd/<name>.hpp chooses them.
-XSIMD_TAGS = {"sse2": ("4sse2E",), "avx2": ("4fma3I", "4avx2E"), "avx512": ("8avx512dqE",), "generic": ()}
+INSTRUCTION_SETS = pathlib.Path(__file__).resolve().parent.parent / "cmake" / "instruction_sets.txt"
+
+
+def read_xsimd_tags():
+    """Of each instruction set, xsimd's architecture as it appears in a mangled name."""
+    lines = [line for line in INSTRUCTION_SETS.read_text(encoding="utf-8").splitlines() if line and not line.startswith("#")]
+    fields = [[field.strip() for field in line.split("|")] for line in lines]
+    return {field[0]: tuple(field[3].split()) for field in fields}
+
+
+XSIMD_TAGS = read_xsimd_tags()
 
 # What compilers call of themselves, and libm where an instruction set has no rounding instruction.
 FROM_LIBC = {"memcpy", "memmove", "memset", "memcmp", "nearbyint", "nearbyintf", "rint", "copysign", "fma"}

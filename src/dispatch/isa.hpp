@@ -4,12 +4,18 @@
 #include <string_view>
 #include <vector>
 
+#include "dispatch/instruction_sets.hpp"
 #include "kernel_table.hpp"
 
 namespace lanescape {
 
 // Instruction sets the kernels are compiled for, in rising order of preference.
-enum class Isa { generic, sse2, avx2, avx512 };
+#define LANESCAPE_ENTRY(name) name,
+enum class Isa { LANESCAPE_INSTRUCTION_SETS(LANESCAPE_ENTRY) };
+#undef LANESCAPE_ENTRY
+#define LANESCAPE_ENTRY(name) Isa::name,
+inline constexpr Isa every_isa[] = {LANESCAPE_INSTRUCTION_SETS(LANESCAPE_ENTRY)};
+#undef LANESCAPE_ENTRY
 
 const char* to_string(Isa isa);
 // Compiled into this library and supported by this processor, in rising order.

@@ -46,7 +46,7 @@ Json to_json(const std::vector<Deviation>& deviations, const std::vector<Isa>& i
                                  {"tolerance", d.tolerance},
                                  {"worst_case", d.worst_case},
                                  {"passed", d.passed()}});
-  for (const Isa isa : {Isa::sse2, Isa::avx2, Isa::avx512})
+  for (const Isa isa : every_isa)
     if (std::find(isas.begin(), isas.end(), isa) == isas.end())
       result["skipped"].push_back(
           {{"isa", to_string(isa)}, {"reason", forced ? "not asked for" : "not available on this processor"}});

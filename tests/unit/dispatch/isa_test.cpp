@@ -12,8 +12,6 @@
 namespace lanescape {
 namespace {
 
-constexpr Isa every_isa[] = {Isa::generic, Isa::sse2, Isa::avx2, Isa::avx512};
-
 // Sets or unsets LANESCAPE_ISA and puts back what was there.
 class Environment {
  public:
@@ -123,6 +121,16 @@ TEST(ChooseIsa, LetsTheRequestWinOverTheEnvironment) {
     const Environment wrong("pentium");
     EXPECT_EQ(choose_isa(to_string(requested)), requested);
   }
+}
+
+TEST(AvailableIsas, StartWithThePortableOneWhichIsNeverTheBestOnX86) {
+#if defined(__x86_64__)
+  const auto isas = available_isas();
+  EXPECT_TRUE(isas.back() != Isa::generic || !is_available(Isa::sse2));
+  EXPECT_TRUE(isas.front() == Isa::generic || !is_available(Isa::generic));
+#else
+  EXPECT_EQ(available_isas(), std::vector{Isa::generic});
+#endif
 }
 
 TEST(KernelTable, CarriesTheNameOfItsInstructionSet) {
