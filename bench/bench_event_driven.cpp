@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bench_support.hpp"
-#include "interaction/sphere/hard_sphere.hpp"
+#include "interaction/sphere/hard_sphere_overlap.hpp"
 
 namespace lanescape::bench {
 namespace {

@@ -27,6 +27,7 @@
 #include "interaction/pair/pair_interaction.hpp"
 #include "io/extended_xyz.hpp"
 #include "neighbour/neighbour_list.hpp"
+#include "neighbour/neighbour_rows.hpp"
 #include "path/finder.hpp"
 #include "stepper/contour.hpp"
 #include "verification/kernel_checks.hpp"
@@ -100,17 +101,12 @@ double count_pairs(const NeighbourList& list, const PairModel& model) {
   std::size_t ends = 0;
   for (std::size_t b = 0; b < list.block_count(); ++b) {
     const kernels::NeighbourRows rows = list.rows_of(b);
-    const std::uint32_t* places = rows.neighbours;
-    for (std::size_t k = 0; k < rows.row_count * rows.species_count; ++k) {
-      const double* row = rows.points + rows.rows[k / rows.species_count];
-      const double cutoff = model.cutoff * model.sigma[model.pair(list.species_of(b), k % rows.species_count)];
-      for (std::uint32_t j = 0; j < rows.lengths[k]; ++j) {
-        const double* point = rows.points + places[j];
-        const double dx = point[0] - row[0], dy = point[1] - row[1], dz = point[2] - row[2];
-        ends += dx * dx + dy * dy + dz * dz < cutoff * cutoff ? 1 : 0;
-      }
-      places += (rows.lengths[k] + kernels::slot_padding - 1) / kernels::slot_padding * kernels::slot_padding;
-    }
+    for_each_neighbour(rows, [&](std::size_t k, std::size_t species, std::uint32_t offset) {
+      const double *row = rows.points + rows.rows[k], *point = rows.points + offset;
+      const double cutoff = model.cutoff_of(model.pair(list.species_of(b), species));
+      const double dx = point[0] - row[0], dy = point[1] - row[1], dz = point[2] - row[2];
+      ends += dx * dx + dy * dy + dz * dz < cutoff * cutoff ? 1 : 0;
+    });
   }
   return 0.5 * static_cast<double>(ends);
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench_support.hpp"
-#include "interaction/sphere/hard_sphere.hpp"
+#include "interaction/sphere/hard_sphere_overlap.hpp"
 #include "landscape/hard_sphere_landscape.hpp"
 #include "reference/hard_sphere.hpp"
 

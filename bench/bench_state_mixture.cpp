@@ -24,6 +24,7 @@
 #include "bench_support.hpp"
 #include "interaction/state/local_density.hpp"
 #include "interaction/state/state_mixture.hpp"
+#include "neighbour/neighbour_rows.hpp"
 #include "verification/state_mixture_checks.hpp"
 
 namespace lanescape::bench {
@@ -64,20 +65,15 @@ reference::StateNeighbours neighbours_of(const NeighbourList& list, const Partic
   reference::StateNeighbours neighbours(layout.size());
   for (std::size_t b = 0; b < list.block_count(); ++b) {
     const kernels::NeighbourRows rows = list.rows_of(b);
-    const std::uint32_t* places = rows.neighbours;
-    for (std::size_t k = 0; k < rows.row_count; ++k) {
-      const std::size_t i = particle_of[list.slot_at(rows.rows[k])];
-      for (std::uint32_t n = 0; n < rows.lengths[k]; ++n) {
-        const std::size_t j = particle_of[list.slot_at(places[n])];
-        std::array<double, 3> shift;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          const double d = rows.points[rows.rows[k] + axis] - rows.points[places[n] + axis];
-          shift[axis] = c.positions[3 * i + axis] - c.positions[3 * j + axis] - d;
-        }
-        neighbours[i].push_back({j, shift});
+    for_each_neighbour(rows, [&](std::size_t row, std::size_t, std::uint32_t offset) {
+      const std::size_t i = particle_of[list.slot_at(rows.rows[row])], j = particle_of[list.slot_at(offset)];
+      std::array<double, 3> shift;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double d = rows.points[rows.rows[row] + axis] - rows.points[offset + axis];
+        shift[axis] = c.positions[3 * i + axis] - c.positions[3 * j + axis] - d;
       }
-      places += (rows.lengths[k] + kernels::slot_padding - 1) / kernels::slot_padding * kernels::slot_padding;
-    }
+      neighbours[i].push_back({j, shift});
+    });
   }
   return neighbours;
 }

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "core/padded.hpp"
+
 namespace lanescape {
 namespace {
 
@@ -50,7 +52,7 @@ void ParticleLayout::assign(const std::vector<int>& species, std::size_t species
   for (const int s : species) ++blocks_[static_cast<std::size_t>(s)].count;
   for (auto& block : blocks_) {
     block.begin = slots_;
-    slots_ += (block.count + kernels::slot_padding - 1) / kernels::slot_padding * kernels::slot_padding;
+    slots_ += padded(block.count);
   }
   std::vector<std::size_t> next;
   for (const auto& block : blocks_) next.push_back(block.begin);

@@ -17,6 +17,8 @@ struct Box {
   double nearest_image(std::size_t axis, double separation) const {
     return separation - length[axis] * std::nearbyint(separation / length[axis]);
   }
+  // The nearest image of a separation.
+  Point nearest_image(const Point& d) const { return {nearest_image(0, d[0]), nearest_image(1, d[1]), nearest_image(2, d[2])}; }
   // x moved into the box by whole edges: 0 <= x < L.
   double wrapped(std::size_t axis, double x) const {
     x -= length[axis] * std::floor(x / length[axis]);

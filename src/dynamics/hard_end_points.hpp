@@ -11,7 +11,7 @@
 #include "dispatch/isa.hpp"
 #include "dynamics/end_points.hpp"
 #include "dynamics/event_driven.hpp"
-#include "interaction/sphere/hard_sphere.hpp"
+#include "interaction/sphere/hard_sphere_overlap.hpp"
 
 namespace lanescape {
 

@@ -13,7 +13,7 @@
 #include "core/error.hpp"
 #include "dynamics/contraction.hpp"
 #include "dynamics/event_driven.hpp"
-#include "interaction/sphere/hard_sphere.hpp"
+#include "interaction/sphere/hard_sphere_overlap.hpp"
 
 namespace lanescape {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/padded.hpp"
 #include "core/random.hpp"
 
 namespace lanescape {
@@ -14,7 +15,6 @@ VelocityVerlet::VelocityVerlet(SoftLandscape& landscape, const Mixture& model, c
       velocity_(position_.size(), 0.0),
       gradient_(position_.size(), 0.0),
       time_step_(time_step) {
-  const std::size_t padding = kernels::slot_padding;
   for (const Species& s : model.species) masses_.push_back(s.mass);
   if (model.has_equal_masses()) {
     segments_.push_back({0, layout.dimension(), masses_.front()});
@@ -22,7 +22,7 @@ VelocityVerlet::VelocityVerlet(SoftLandscape& landscape, const Mixture& model, c
     for (std::size_t axis = 0; axis < 3; ++axis)
       for (std::size_t s = 0; s < layout.blocks().size(); ++s) {
         const auto& block = layout.blocks()[s];
-        segments_.push_back({axis * layout.slots() + block.begin, (block.count + padding - 1) / padding * padding, masses_[s]});
+        segments_.push_back({axis * layout.slots() + block.begin, padded(block.count), masses_[s]});
       }
   }
   potential_ = landscape_->energy_and_gradient(position_, gradient_);

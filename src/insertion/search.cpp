@@ -19,8 +19,6 @@ constexpr std::size_t candidates_at_once = 16;
 // For one start; then any will do, as where the region has no clear place.
 constexpr int most_candidates = 16'384;
 
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 }  // namespace
 
 InsertionSearch::InsertionSearch(const ProbeField& fluid, const InsertionOptions& options, std::uint64_t number, double allowed,

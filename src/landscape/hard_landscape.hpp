@@ -4,7 +4,7 @@
 
 #include "core/aligned_array.hpp"
 #include "dispatch/vector_algebra.hpp"
-#include "interaction/sphere/hard_sphere.hpp"
+#include "interaction/sphere/hard_sphere_list.hpp"
 
 namespace lanescape {
 

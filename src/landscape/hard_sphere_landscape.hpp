@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "dispatch/isa.hpp"
-#include "interaction/sphere/hard_sphere.hpp"
+#include "interaction/sphere/hard_sphere_list.hpp"
+#include "interaction/sphere/hard_sphere_overlap.hpp"
 #include "landscape/hard_landscape.hpp"
 
 namespace lanescape {

@@ -1,16 +1,16 @@
 #include "neighbour/neighbour_list.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
+#include "core/padded.hpp"
 #include "core/parallel.hpp"
 
 namespace lanescape {
 namespace {
-
-std::size_t padded(std::size_t n) { return (n + kernels::slot_padding - 1) / kernels::slot_padding * kernels::slot_padding; }
 
 std::vector<double> with_skin(std::vector<double> cutoffs, double skin) {
   for (double& cutoff : cutoffs) cutoff += skin;
@@ -38,7 +38,7 @@ NeighbourList::NeighbourList(const Box& box, const ParticleLayout& layout, const
     : table_(&table),
       slots_(layout.slots()),
       reaches_(with_skin(cutoffs, skin)),
-      skin_(skin),
+      half_skin_(skin, table),
       own_images_left_out_(members == Members::others &&
                            std::any_of(reaches_.begin(), reaches_.end(), [&](double reach) { return reach >= box.shortest(); })),
       everywhere_(members == Members::every_point ? 4.0 * std::hypot(box.length[0], box.length[1], box.length[2]) +
@@ -72,20 +72,17 @@ kernels::NeighbourRows NeighbourList::rows_of(std::size_t block) const {
 }
 
 void NeighbourList::update(const AlignedArray& positions) {
-  if (made_at_.empty()) return rebuild(positions);
-  // A little less than half the skin: the displacement is rounded too.
-  const double allowed = 0.499 * skin_;
+  if (half_skin_.reference().empty()) return rebuild(positions);
   const std::size_t units = slots_ / kernels::slot_padding;
-  std::vector<double> furthest(static_cast<std::size_t>(threads_));
-  // Points are refreshed in the same go: that it was for nothing is rare, and threads wait for one another once less.
+  std::atomic<bool> due = false;
+  // Points are refreshed in the same pass: it is rarely in vain, and threads wait for each other once less.
   for_each_part(threads_, [&](int part) {
-    furthest[static_cast<std::size_t>(part)] = table_->largest_displacement_squared(
-        made_at_.data(), positions.data(), slots_, part_begin(units, part, threads_) * kernels::slot_padding,
-        part_begin(units, part + 1, threads_) * kernels::slot_padding);
+    if (half_skin_.is_due(positions, part_begin(units, part, threads_) * kernels::slot_padding,
+                          part_begin(units, part + 1, threads_) * kernels::slot_padding))
+      due = true;
     points_.refresh(positions, part);
   });
-  if (!std::all_of(furthest.begin(), furthest.end(), [&](double squared) { return squared <= allowed * allowed; }))
-    rebuild(positions);
+  if (due) rebuild(positions);
 }
 
 void NeighbourList::set_values(const AlignedArray& per_slot, std::size_t stride) {
@@ -94,7 +91,7 @@ void NeighbourList::set_values(const AlignedArray& per_slot, std::size_t stride)
 
 void NeighbourList::rebuild(const AlignedArray& positions) {
   ++rebuilds_;
-  made_at_ = positions;
+  half_skin_.rebuilt_at(positions);
   points_.sort(positions);
   cut_into_blocks();
   for_each_part(threads_, [&](int part) {
@@ -186,15 +183,15 @@ int useful_threads(std::size_t particles, int wanted) {
 std::size_t NeighbourList::neighbours() const { return std::accumulate(lengths_.begin(), lengths_.end(), std::size_t{0}); }
 
 std::size_t NeighbourList::memory() const {
-  std::size_t bytes = points_.memory() + made_at_.capacity() * sizeof(double) + blocks_.capacity() * sizeof(Block) +
+  std::size_t bytes = points_.memory() + half_skin_.reference().capacity() * sizeof(double) + blocks_.capacity() * sizeof(Block) +
                       lengths_.capacity() * sizeof(std::uint32_t);
   for (const auto& neighbours : neighbours_) bytes += neighbours.capacity() * sizeof(std::uint32_t);
   return bytes;
 }
 
 void NeighbourList::exchange(Archive& archive) {
-  archive.field("list_made_at", made_at_);
-  if (archive.reading() && !made_at_.empty()) rebuild(AlignedArray(made_at_));
+  archive.field("list_made_at", half_skin_.reference());
+  if (archive.reading() && !half_skin_.reference().empty()) rebuild(AlignedArray(half_skin_.reference()));
 }
 
 }  // namespace lanescape

@@ -9,6 +9,7 @@
 #include "core/archive.hpp"
 #include "core/box.hpp"
 #include "kernel_table.hpp"
+#include "neighbour/half_skin.hpp"
 #include "neighbour/periodic_points.hpp"
 
 namespace lanescape {
@@ -82,12 +83,11 @@ class NeighbourList {
   const kernels::KernelTable* table_;
   std::size_t slots_;
   std::vector<double> reaches_;  // cutoff and skin, species x species
-  double skin_;
+  HalfSkin half_skin_;
   bool own_images_left_out_;  // there are some in reach
   double everywhere_;         // reach that finds every point, 0 if only those near are listed
   int threads_;
   PeriodicPoints points_;
-  AlignedArray made_at_;
   std::vector<Block> blocks_;
   std::vector<std::size_t> first_blocks_;
   double expected_per_row_ = 0.0;                         // places, padding included

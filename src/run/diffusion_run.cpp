@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/overloaded.hpp"
 #include "interaction/pair/pair_interaction.hpp"
-#include "interaction/sphere/hard_sphere.hpp"
+#include "interaction/sphere/check_overlap.hpp"
 #include "landscape/pair_landscape.hpp"
 
 namespace lanescape {

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <string_view>
 
-#include "interaction/sphere/hard_sphere.hpp"
+#include "interaction/sphere/check_overlap.hpp"
 #include "interaction/state/state_mixture.hpp"
 #include "landscape/make_landscape.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "configuration/model_traits.hpp"
 #include "core/error.hpp"
-#include "interaction/sphere/hard_sphere.hpp"
+#include "interaction/sphere/check_overlap.hpp"
 #include "interaction/state/state_mixture.hpp"
 #include "landscape/hard_sphere_landscape.hpp"
 #include "landscape/kinematic_landscape.hpp"

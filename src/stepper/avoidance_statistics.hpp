@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/archive.hpp"
-#include "interaction/sphere/hard_sphere.hpp"
+#include "interaction/sphere/hard_sphere_list.hpp"
 
 namespace lanescape {
 

@@ -16,7 +16,6 @@ using Vector = std::array<double, 3>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double tiny = 1e-12;  // below this a vector has no direction [sigma]
 
-double dot(const Vector& a, const Vector& b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
 double norm(const Vector& a) { return std::sqrt(dot(a, a)); }
 Vector add(const Vector& a, double factor, const Vector& b) {
   return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};

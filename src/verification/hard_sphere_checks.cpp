@@ -13,9 +13,11 @@
 
 #include "configuration/particle_layout.hpp"
 #include "core/aligned_array.hpp"
+#include "core/padded.hpp"
 #include "core/random.hpp"
 #include "dynamics/event_calendar.hpp"
-#include "interaction/sphere/hard_sphere.hpp"
+#include "interaction/sphere/hard_sphere_list.hpp"
+#include "interaction/sphere/hard_sphere_overlap.hpp"
 #include "reference/event_driven.hpp"
 #include "reference/hard_sphere.hpp"
 #include "verification/check.hpp"
@@ -284,11 +286,7 @@ struct FlightCase {
   reference::Vector box;
 
   FlightCase(std::size_t neighbours_wanted, std::uint64_t which, double growth_rate, double speed)
-      : neighbours((neighbours_wanted + 7) / 8 * 8, 0),
-        count(neighbours_wanted),
-        now(1.5),
-        growth(growth_rate),
-        box{5.0, 6.0, 4.5} {
+      : neighbours(padded(neighbours_wanted), 0), count(neighbours_wanted), now(1.5), growth(growth_rate), box{5.0, 6.0, 4.5} {
     const CounterRandom random(5, RandomStream::displacements);
     for (std::uint32_t i = 0; i < neighbours_wanted + 5; ++i) {
       auto draw = [&, k = 0U]() mutable { return random.uniform(which, i, k++); };

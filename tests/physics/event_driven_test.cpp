@@ -9,10 +9,10 @@
 #include "configuration/hard_sphere_model.hpp"
 #include "configuration/lattice.hpp"
 #include "core/error.hpp"
+#include "core/point.hpp"
 #include "core/run_monitor.hpp"
 #include "dispatch/isa.hpp"
 #include "dynamics/hard_sphere_start.hpp"
-#include "interaction/sphere/hard_sphere.hpp"
 #include "reference/event_driven.hpp"
 #include "reference/hard_sphere.hpp"
 

@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "interaction/sphere/hard_sphere.hpp"
+#include "interaction/sphere/check_overlap.hpp"
+#include "interaction/sphere/hard_sphere_overlap.hpp"
 #include "program.hpp"
 
 namespace lanescape::program {

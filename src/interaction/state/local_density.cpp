@@ -64,7 +64,7 @@ void LocalDensity::evaluate(Sites& sites, AlignedArray& values) {
     sites.kernels().state_densities({rows, of(species).view(), filter_.data() + species * species_, near.reaches_squared,
                                      near.places, near.lengths, near.slopes},
                                     densities.data());
-    for (std::size_t k = 0; k < rows.row_count; ++k) values[list.slot_at(rows.rows[k])] = densities[k];
+    for_each_row(list, rows, [&](std::size_t row, std::size_t slot) { values[slot] = densities[row]; });
   });
   sites.use_near();
 }

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "core/padded.hpp"
+#include "core/parallel.hpp"
+
 namespace lanescape {
 
 Sites::Sites(const Box& box, const ParticleLayout& layout, std::vector<double> reaches, std::size_t states,
@@ -41,7 +44,7 @@ void Sites::put_states() {
   const std::size_t states = states_.states, width = kernels::point_width;
   if (states == 2) list_.set_values(states_.p, states);
   if (states < 3) return;
-  const std::size_t points = list_.points(), groups = (states + width - 1) / width;
+  const std::size_t points = list_.points(), groups = padded(states, width) / width;
   groups_.resize(groups * width * points);
   for_each_part(list_.parts(), [&](int part) {
     for (std::size_t k = part_begin(points, part, list_.parts()); k < part_begin(points, part + 1, list_.parts()); ++k) {
@@ -54,15 +57,16 @@ void Sites::put_states() {
 
 kernels::StateProbabilities Sites::states_of(const kernels::NeighbourRows& rows, double* row_states) const {
   const std::size_t states = states_.states;
-  for (std::size_t k = 0; k < rows.row_count; ++k)
-    for (std::size_t a = 0; a < states; ++a) row_states[k * states + a] = states_.p[list_.slot_at(rows.rows[k]) * states + a];
+  for_each_row(list_, rows, [&](std::size_t row, std::size_t slot) {
+    for (std::size_t a = 0; a < states; ++a) row_states[row * states + a] = states_.p[slot * states + a];
+  });
   return {states, row_states, states < 3 ? rows.points : groups_.data(), states < 3 ? 0 : kernels::point_width * list_.points()};
 }
 
-void StateSums::add_virial(double pull, const std::array<double, 3>& d, double weight) {
-  virial += weight * pull * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+void StateSums::add_virial(double force_over_r, const Point& d, double weight) {
+  virial += weight * force_over_r * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
   constexpr std::size_t voigt[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
-  for (std::size_t k = 0; k < 6; ++k) virial_tensor[k] += weight * pull * d[voigt[k][0]] * d[voigt[k][1]];
+  for (std::size_t k = 0; k < 6; ++k) virial_tensor[k] += weight * force_over_r * d[voigt[k][0]] * d[voigt[k][1]];
 }
 
 }  // namespace lanescape

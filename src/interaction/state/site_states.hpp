@@ -9,9 +9,10 @@
 #include "core/aligned_array.hpp"
 #include "core/archive.hpp"
 #include "core/box.hpp"
-#include "core/parallel.hpp"
+#include "core/point.hpp"
 #include "kernel_table.hpp"
-#include "neighbour/neighbour_list.hpp"
+#include "neighbour/list_blocks.hpp"
+#include "neighbour/neighbour_rows.hpp"
 
 // Energies that depend on positions by way of the states of sites too ([P] Eq. 1): U(p(R), R), p_ia the probability of site i to be
 // in state a. What gives the probabilities and what gives the energy know nothing of each other. The one tells p and takes dU/dp;
@@ -105,7 +106,7 @@ struct StateSums {
   std::array<double, 6> virial_tensor{};  // where the stress is wanted
 
   // A pair's (or one end's, at half `weight`) virial from -u'/r and its separation.
-  void add_virial(double pull, const std::array<double, 3>& d, double weight);
+  void add_virial(double force_over_r, const Point& d, double weight);
 };
 
 // One number of each site that its state follows.
@@ -147,32 +148,23 @@ template <class Visit>
 void Sites::for_each_pair(Visit visit) const {
   for (std::size_t b = 0; b < list_.block_count(); ++b) {
     const kernels::NeighbourRows rows = list_.rows_of(b);
-    const std::uint32_t *places = rows.neighbours, *length = rows.lengths;
-    for (std::size_t k = 0; k < rows.row_count; ++k)
-      for (std::size_t s = 0; s < rows.species_count; ++s, ++length) {
-        const double* own = rows.points + rows.rows[k];
-        for (std::uint32_t j = 0; j < *length; ++j) {
-          const double* other = rows.points + places[j];
-          visit(std::size_t{list_.slot_at(rows.rows[k])}, std::size_t{list_.slot_at(places[j])},
-                std::array<double, 3>{own[0] - other[0], own[1] - other[1], own[2] - other[2]});
-        }
-        places += (*length + kernels::slot_padding - 1) / kernels::slot_padding * kernels::slot_padding;
-      }
+    for_each_neighbour(rows, [&](std::size_t row, std::size_t, std::uint32_t neighbour) {
+      const double *own = rows.points + rows.rows[row], *other = rows.points + neighbour;
+      visit(std::size_t{list_.slot_at(rows.rows[row])}, std::size_t{list_.slot_at(neighbour)},
+            Point{own[0] - other[0], own[1] - other[1], own[2] - other[2]});
+    });
   }
 }
 
 template <class MakeScratch, class Body>
 void Sites::for_each_block(MakeScratch make_scratch, Body body) const {
-  for_each_part(list_.parts(), [&](int part) {
-    auto scratch = make_scratch();
-    for (std::size_t b = list_.first_block(part); b < list_.first_block(part + 1); ++b) {
-      kernels::NeighbourRows rows = list_.rows_of(b);
-      if (near_known_) {
-        rows.neighbours = near_[list_.array_of(b)].data() + list_.first_neighbour(b);
-        rows.lengths = near_lengths_.data() + NeighbourList::block_rows * rows.species_count * b;
-      }
-      body(b, rows, scratch);
+  lanescape::for_each_block(list_, make_scratch, [&](std::size_t b, auto& scratch) {
+    kernels::NeighbourRows rows = list_.rows_of(b);
+    if (near_known_) {
+      rows.neighbours = near_[list_.array_of(b)].data() + list_.first_neighbour(b);
+      rows.lengths = near_lengths_.data() + NeighbourList::block_rows * rows.species_count * b;
     }
+    body(b, rows, scratch);
   });
 }
 

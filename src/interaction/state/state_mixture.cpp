@@ -141,8 +141,7 @@ double StateMixture::find_states() {
   const auto scratch = [states] { return std::vector<StateProbability>(states); };
   sites_.for_each_block(scratch, [&](std::size_t b, const kernels::NeighbourRows& rows, std::vector<StateProbability>& of_site) {
     const double* mu = parts_.one_body.mu.data() + list.species_of(b) * states;
-    for (std::size_t k = 0; k < rows.row_count; ++k) {
-      const std::size_t slot = list.slot_at(rows.rows[k]);
+    for_each_row(list, rows, [&](std::size_t, std::size_t slot) {
       parts_.response->evaluate(list.species_of(b), values_[slot], of_site);
       double multiplier = 0.0;
       for (std::size_t a = 0; a < states; ++a) {
@@ -154,7 +153,7 @@ double StateMixture::find_states() {
         if (slope != 0.0) multiplier += slope * (mu[a] + temperature * (logarithm + 1.0));
       }
       multipliers_[slot] = multiplier;
-    }
+    });
   });
   double energy = 0.0;
   for (const double of_block : energies) energy += of_block;
@@ -166,11 +165,10 @@ void StateMixture::add_multipliers_of_potentials() {
   const auto& list = sites_.list();
   const std::size_t states = sites_.states();
   sites_.for_each_block(no_scratch, [&](std::size_t, const kernels::NeighbourRows& rows, int) {
-    for (std::size_t k = 0; k < rows.row_count; ++k) {
-      const std::size_t slot = list.slot_at(rows.rows[k]);
+    for_each_row(list, rows, [&](std::size_t, std::size_t slot) {
       for (std::size_t a = 0; a < states; ++a)
         multipliers_[slot] += probability_slopes_[slot * states + a] * slopes_[slot * states + a];
-    }
+    });
   });
 }
 

@@ -11,7 +11,9 @@
 #include <tuple>
 #include <vector>
 
+#include "core/padded.hpp"
 #include "every_isa.hpp"
+#include "neighbour/neighbour_rows.hpp"
 
 namespace lanescape {
 namespace {
@@ -78,19 +80,13 @@ Neighbours of_list(const NeighbourList& list, const ParticleLayout& layout, cons
   Neighbours found(layout.size());
   for (std::size_t b = 0; b < list.block_count(); ++b) {
     const kernels::NeighbourRows rows = list.rows_of(b);
-    const std::uint32_t* place = rows.neighbours;
-    for (std::size_t k = 0; k < rows.row_count; ++k)
-      for (std::size_t s = 0; s < rows.species_count; ++s) {
-        const std::uint32_t count = rows.lengths[k * rows.species_count + s];
-        for (std::uint32_t j = 0; j < count; ++j) {
-          const double *self = rows.points + rows.rows[k], *other = rows.points + place[j];
-          const std::array<double, 3> d = {other[0] - self[0], other[1] - self[1], other[2] - self[2]};
-          const double cutoff = cutoffs_of_pairs.empty() ? 1e9 : cutoffs_of_pairs[list.species_of(b) * rows.species_count + s];
-          if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < cutoff * cutoff)
-            found[particle_in.at(list.slot_at(rows.rows[k]))].push_back(neighbour(particle_in.at(list.slot_at(place[j])), d));
-        }
-        place += (count + kernels::slot_padding - 1) / kernels::slot_padding * kernels::slot_padding;
-      }
+    for_each_neighbour(rows, [&](std::size_t k, std::size_t s, std::uint32_t offset) {
+      const double *self = rows.points + rows.rows[k], *other = rows.points + offset;
+      const std::array<double, 3> d = {other[0] - self[0], other[1] - self[1], other[2] - self[2]};
+      const double cutoff = cutoffs_of_pairs.empty() ? 1e9 : cutoffs_of_pairs[list.species_of(b) * rows.species_count + s];
+      if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < cutoff * cutoff)
+        found[particle_in.at(list.slot_at(rows.rows[k]))].push_back(neighbour(particle_in.at(list.slot_at(offset)), d));
+    });
   }
   for (auto& neighbours : found) std::sort(neighbours.begin(), neighbours.end());
   return found;
@@ -168,9 +164,9 @@ TEST(NeighbourList, IsTheSameWhateverTheNumberOfThreads) {
         EXPECT_TRUE(std::equal(x.rows, x.rows + x.row_count, y.rows));
         const std::size_t segments = x.row_count * x.species_count;
         ASSERT_TRUE(std::equal(x.lengths, x.lengths + segments, y.lengths));
-        std::size_t places = 0;
-        for (std::size_t k = 0; k < segments; ++k) places += (x.lengths[k] + 7) / 8 * 8;
-        EXPECT_TRUE(std::equal(x.neighbours, x.neighbours + places, y.neighbours));
+        std::size_t offsets = 0;
+        for (std::size_t k = 0; k < segments; ++k) offsets += padded(x.lengths[k]);
+        EXPECT_TRUE(std::equal(x.neighbours, x.neighbours + offsets, y.neighbours));
       }
       // Every block has one part that does it.
       EXPECT_EQ(many.first_block(0), 0U);
@@ -186,10 +182,10 @@ TEST(NeighbourList, HasAnEvenShareForEveryPart) {
   NeighbourList list = make_list(fluid, layout, 0.3, available_isas().back(), 4);
   list.update(layout.to_slots(fluid.positions));
   const auto work = [&](int part) {
-    std::size_t vectors = 0;
+    std::size_t vectors = 0;  // in lanes
     for (std::size_t b = list.first_block(part); b < list.first_block(part + 1); ++b) {
       const kernels::NeighbourRows rows = list.rows_of(b);
-      for (std::size_t k = 0; k < rows.row_count * rows.species_count; ++k) vectors += (rows.lengths[k] + 7) / 8;
+      for_each_segment(rows, [&](std::size_t, std::size_t, auto offsets) { vectors += padded(offsets.size()); });
     }
     return static_cast<double>(vectors);
   };

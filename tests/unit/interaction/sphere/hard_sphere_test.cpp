@@ -1,4 +1,6 @@
-#include "interaction/sphere/hard_sphere.hpp"
+#include "interaction/sphere/check_overlap.hpp"
+#include "interaction/sphere/hard_sphere_list.hpp"
+#include "interaction/sphere/hard_sphere_overlap.hpp"
 
 #include <gtest/gtest.h>
 

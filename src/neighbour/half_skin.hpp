@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+
+#include "core/aligned_array.hpp"
+#include "kernel_table.hpp"
+
+namespace lanescape {
+
+// Decides when a list with a skin must be rebuilt: once a particle is half the skin away from where it was at the last rebuild.
+// Until then two particles have approached each other by less than the skin, so no pair within the cutoff is missed.
+class HalfSkin {
+ public:
+  HalfSkin(double skin, const kernels::KernelTable& table) : skin_(skin), table_(&table) {}
+
+  double skin() const { return skin_; }
+  // The positions of the last rebuild; empty before the first.
+  const AlignedArray& reference() const { return reference_; }
+  AlignedArray& reference() { return reference_; }
+  void rebuilt_at(const AlignedArray& positions) { reference_ = positions; }
+
+  // Whether a particle in slots [begin, end), multiples of slot_padding, has moved too far; also true for positions that are not
+  // numbers, and before the first rebuild.
+  bool is_due(const AlignedArray& positions, std::size_t begin, std::size_t end) const {
+    if (reference_.empty()) return true;
+    // A little less than half the skin: the displacement is rounded too.
+    const double allowed = 0.499 * skin_;
+    return !(table_->largest_displacement_squared(reference_.data(), positions.data(), positions.size() / 3, begin, end) <=
+             allowed * allowed);
+  }
+  bool is_due(const AlignedArray& positions) const { return is_due(positions, 0, positions.size() / 3); }
+
+ private:
+  double skin_;
+  const kernels::KernelTable* table_;
+  AlignedArray reference_;
+};
+
+}  // namespace lanescape
