@@ -1,14 +1,15 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "configuration/configuration.hpp"
 #include "core/aligned_array.hpp"
 #include "core/archive.hpp"
+#include "core/point.hpp"
 #include "dynamics/event_calendar.hpp"
 #include "kernel_table.hpp"
 #include "neighbour/cell_grid.hpp"
@@ -19,10 +20,10 @@ namespace lanescape {
 // each particle keeps its own time and its earliest event, a calendar finds the first of all, neighbour lists bound the
 // search. Time in sigma sqrt(m / k_B T).
 //
-// A particle's list holds every other one that it can touch before either leaves a sphere of radius `shell` around the place
-// its list was made at; leaving is an event. Every resync_interval() collisions, at counts that depend on nothing else, all
-// particles are brought to one time, which becomes zero again, and lists and calendar are made anew: rounding then never
-// grows with time, and a state between two collisions at such a count is positions, velocities and counters alone.
+// A particle's list holds every other one that it can touch before either leaves its shell, a sphere of radius `shell` around the
+// position its list was built at; leaving is an event. Every resync_interval() collisions, at counts that depend on nothing else,
+// all particles advance to one time, which becomes zero again, and lists and calendar are rebuilt. So rounding does not grow with
+// time, and a state at such a count is positions, velocities and counters alone.
 class EventDriven {
  public:
   // At rest. `masses` per particle. `growth`: diameters grow by this share of themselves per unit of time, of what they were at the
@@ -30,22 +31,22 @@ class EventDriven {
   // diameter, where a particle would meet two images of another.
   EventDriven(const Configuration& start, std::vector<double> masses, const kernels::KernelTable& table, double growth = 0.0);
 
-  // Maxwell's distribution, total momentum removed, then sum m v^2 / 2 = (3/2) N T with T = 1, the source's convention.
+  // Maxwell's distribution, total momentum removed, then sum m v^2 / 2 = (3/2) N T with T = 1, the convention of [G].
   void draw_velocities(std::uint64_t seed);
   // Sets velocities (3N, the user's order) as they are.
   void set_velocities(const std::vector<double>& velocities);
   // Removes the total momentum and scales to T = 1.
   void rescale();
 
-  // The next collision; nothing else changes the state. Must not be called where there is none to come: with all at rest.
+  // Advances to the next collision. There must be one: not all particles may be at rest.
   void collide();
-  // Lets time pass up to `time` since the start, with all collisions until then.
+  // Advances to `time` since the start, through all collisions until then.
   void advance_to(double time);
-  // Everything to one time, lists and calendar anew. The counts at which this happens influence the bits of what follows.
+  // Brings all particles to one time and rebuilds lists and calendar. The counts at which this happens affect the later bits.
   void resynchronise();
 
-  // 256 per particle, at most 100,000, but 4 per particle at least: long before a time has lost four digits, and seldom enough to
-  // cost little, as each takes O(N).
+  // Collisions between resynchronisations: 256 per particle, at most 100,000, at least 4 per particle. Times then lose less than
+  // four digits, and the O(N) cost of each is small.
   std::uint64_t resync_interval() const {
     return std::max<std::uint64_t>(std::min<std::uint64_t>(100'000, 256 * size()), 4 * size());
   }
@@ -56,7 +57,7 @@ class EventDriven {
   double time() const { return time_base_ + now_; }  // of the last event, or that advance_to() was given
   double next_event_time() const { return time_base_ + calendar_.first_time(); }
   double kinetic_energy() const;
-  std::array<double, 3> momentum() const;
+  Point momentum() const;
   // sum over collisions of 2 mu |b|, b = r.v at contact, mu the reduced mass.
   double virial() const { return virial_; }
   // Z = 1 + virial / (3 N k_B T t) since `virial_before` and `time_before`; k_B T = 2 K / (3 N - 3), since the total momentum is
@@ -70,8 +71,8 @@ class EventDriven {
   std::vector<double> velocities() const;
   Configuration configuration() const;
 
-  // Only right after resynchronise(), or at a multiple of resync_interval() collisions, does a state that is read go on with the
-  // same bits as the one that was written.
+  // A state that is read continues with the same bits only if it was written right after resynchronise(), or at a multiple of
+  // resync_interval() collisions.
   bool at_resync() const { return fresh_; }
   void exchange(Archive& archive);
 
@@ -87,12 +88,19 @@ class EventDriven {
     std::uint32_t partner_collisions;  // when the event was predicted: more by now, and it will not happen
   };
   static constexpr std::int32_t none = -1;
-  // Of two with references inside the box, whether they can touch before either leaves its shell.
+  static constexpr double never = std::numeric_limits<double>::infinity();
+  // The nearest image of the difference d of two coordinates that are both in the box.
+  static double nearest(double d, double length) {
+    if (d > 0.5 * length) return d - length;
+    if (d < -0.5 * length) return d + length;
+    return d;
+  }
+  // Tells whether two particles with references in the box can touch before either leaves its shell.
   struct Encounters {
     Box box;
-    double swollen, shells;  // radii until the horizon, in radii; two shells [sigma]
+    double swollen, shells;  // largest radius until the horizon, in radii; two shells [sigma]
 
-    bool possible(const std::array<double, 3>& at, double radius, const std::array<double, 3>& other, double other_radius) const;
+    bool possible(const Point& at, double radius, const Point& other, double other_radius) const;
   };
 
   void choose_shell();
@@ -100,7 +108,14 @@ class EventDriven {
   void make_calendar();
   void positions_at(double now, std::vector<double>& out) const;
   double swell() const { return 1.0 + growth_ * now_; }
-  void bring_to_now(std::size_t i);
+  void bring_to_now(std::size_t i) {
+    auto& s = spheres_[i];
+    const double flown = now_ - s.time;
+    s.x += s.vx * flown;
+    s.y += s.vy * flown;
+    s.z += s.vz * flown;
+    s.time = now_;
+  }
   void wrap(std::size_t i);
   std::int32_t* list(std::size_t i) { return lists_.data() + i * list_capacity_; }
   Encounters encounters() const { return {box_, growth_ > 0.0 ? 1.0 + growth_ * horizon_ : 1.0, 2.0 * shell_}; }
@@ -109,12 +124,12 @@ class EventDriven {
   void append(std::size_t i, std::int32_t neighbour);
   void remove(std::size_t i, std::int32_t neighbour);
   void grow_lists();
-  void renew_list(std::size_t i);
+  void rebuild_list(std::size_t i);
   double shell_exit(std::size_t i) const;
-  // Finds particle i's next event from now on.
+  // Finds the next event of particle i; the result is its time.
   double predict(std::size_t i);
   void bounce(std::size_t i, std::size_t j);
-  // Whatever comes next; whether it was a collision.
+  // Processes the next event; true if it was a collision.
   bool next_event();
 
   const kernels::KernelTable* table_;
@@ -122,7 +137,7 @@ class EventDriven {
   std::vector<double> masses_;
   double growth_;
   std::vector<kernels::FlyingSphere, AlignedAllocator<kernels::FlyingSphere>> spheres_;
-  std::vector<std::array<double, 3>> images_;  // whole boxes left behind
+  std::vector<Point> images_;  // whole boxes left behind
   double now_ = 0.0, time_base_ = 0.0;
   std::uint64_t collisions_ = 0;
   double virial_ = 0.0;
@@ -131,7 +146,7 @@ class EventDriven {
   // Follows from the above at each resynchronisation.
   double shell_ = 0.0, largest_radius_ = 0.0, horizon_ = 0.0;
   CellGrid grid_;
-  std::vector<std::array<double, 3>> references_;  // where each list was made
+  std::vector<Point> references_;  // where each list was built
   std::size_t list_capacity_ = 32;
   std::vector<std::int32_t> lists_, list_sizes_;
   EventCalendar calendar_;

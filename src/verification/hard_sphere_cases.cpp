@@ -15,8 +15,6 @@
 namespace lanescape {
 namespace {
 
-using Point = std::array<double, 3>;
-
 constexpr std::uint64_t seed = 2;
 
 Box cube(double length) { return {{length, length, length}}; }
@@ -88,19 +86,36 @@ Configuration pair_at(const Point& first, const Point& second, const Box& box, d
   return {box, {0, 0}, {first[0], first[1], first[2], second[0], second[1], second[2]}, {r1, r2}};
 }
 
-// Where the second sphere of a pair at `separation` lies: beside the first, across faces, across a corner, in other images. All
-// numbers are sums of few powers of two, and stay exact.
+struct Contact {
+  const char* name;
+  Point separation;
+  double s;
+};
+struct Image {
+  const char* name;
+  Point first, boxes;
+};
+
+constexpr double inside = 0.125, face = 7.75;
+
+// A pair that touches, and the same with radii one ulp larger and smaller.
+void add_contact(std::vector<HardSphereCase>& cases, const Contact& contact, const Image& image, const Box& box) {
+  Point first = image.first, second;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (first[axis] == face) first[axis] = box.length[axis] - 0.25;
+    second[axis] = first[axis] + contact.separation[axis] + image.boxes[axis] * box.length[axis];
+  }
+  const double r = 0.5 * contact.s;
+  const std::string where = fmt::format("({}, {}, {})", contact.name, image.name, box.length[0] == box.length[1] ? "cube" : "box");
+  cases.push_back({"touching pair " + where, pair_at(first, second, box, r, r)});
+  const double more = std::nextafter(r, 1.0), less = std::nextafter(r, 0.0);
+  cases.push_back({"pair of radii one ulp too large " + where, pair_at(first, second, box, more, more)});
+  cases.push_back({"pair of radii one ulp smaller " + where, pair_at(first, second, box, less, less)});
+}
+
+// The second sphere of a pair lies beside the first, across faces, across a corner, or in other images. All coordinates are sums of
+// few powers of two, so they are exact.
 void add_touching_pairs(std::vector<HardSphereCase>& cases) {
-  struct Contact {
-    const char* name;
-    Point separation;
-    double s;
-  };
-  struct Image {
-    const char* name;
-    Point first, boxes;
-  };
-  const double inside = 0.125, face = 7.75;
   const std::array<Image, 5> images = {{{"inside", {inside, inside, inside}, {0, 0, 0}},
                                         {"across a face", {face, inside, inside}, {-1, 0, 0}},
                                         {"across another face", {inside, inside, face}, {0, 0, -1}},
@@ -110,20 +125,7 @@ void add_touching_pairs(std::vector<HardSphereCase>& cases) {
        {Contact{"x", {1.0, 0.0, 0.0}, 1.0}, Contact{"y", {0.0, -1.0, 0.0}, 1.0}, Contact{"z", {0.0, 0.0, 1.0}, 1.0},
         Contact{"3 4 5", {0.75, 1.0, 0.0}, 1.25}, Contact{"1 2 2", {0.25, 0.5, 0.5}, 0.75}})
     for (const Image& image : images)
-      for (const Box& box : {cube(8.0), Box{{8.0, 16.0, 4.0}}}) {
-        Point first = image.first, second;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          if (first[axis] == face) first[axis] = box.length[axis] - 0.25;
-          second[axis] = first[axis] + contact.separation[axis] + image.boxes[axis] * box.length[axis];
-        }
-        const double r = 0.5 * contact.s;
-        const std::string where =
-            fmt::format("({}, {}, {})", contact.name, image.name, box.length[0] == box.length[1] ? "cube" : "box");
-        cases.push_back({"touching pair " + where, pair_at(first, second, box, r, r)});
-        const double more = std::nextafter(r, 1.0), less = std::nextafter(r, 0.0);
-        cases.push_back({"pair of radii one ulp too large " + where, pair_at(first, second, box, more, more)});
-        cases.push_back({"pair of radii one ulp smaller " + where, pair_at(first, second, box, less, less)});
-      }
+      for (const Box& box : {cube(8.0), Box{{8.0, 16.0, 4.0}}}) add_contact(cases, contact, image, box);
   const Point origin{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     Point nearer{}, farther{};

@@ -21,16 +21,9 @@ inline constexpr double contact_force = 2e-15;
 // expected values are in long double; the norm of all forces, a sum over 3N squares, loses most (measured 2.8e-16).
 inline constexpr double avoidance = 1.4e-15;
 
-// Collisions of growing spheres: how far from contact the pair is at the time found, relative to s, the coordinates and the
-// distance flown. Times are not compared: kernel and reference round the growth differently, and the time of a grazing
-// collision is as uncertain as the square root of that (measured 7.5e-17).
-inline constexpr double growing_contact = 3.5e-16;
-
 }  // namespace tolerance
 
 // Overlaps, lists, fictitious forces and avoidance trials of a table against the scalar reference.
 std::vector<Deviation> verify_hard_spheres(const kernels::KernelTable& table, const std::vector<HardSphereCase>& cases);
-// First collisions against the reference, the calendar against std::min_element.
-std::vector<Deviation> verify_event_driven(const kernels::KernelTable& table);
 
 }  // namespace lanescape

@@ -15,6 +15,7 @@
 #include "core/random.hpp"
 #include "interaction/pair/pair_interaction.hpp"
 #include "verification/check.hpp"
+#include "verification/event_driven_checks.hpp"
 #include "verification/hard_sphere_cases.hpp"
 #include "verification/hard_sphere_checks.hpp"
 #include "verification/probe_checks.hpp"

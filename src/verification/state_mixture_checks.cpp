@@ -91,6 +91,22 @@ struct PotentialChecks {
   }
 };
 
+// The potentials of all states of species s with all states of species t, and where they end.
+void add_potentials(reference::StateSystem& system, const StateMixtureModel& model, std::size_t s, std::size_t t) {
+  double cutoff = 0.0;
+  for (std::size_t a = 0; a < system.states; ++a)
+    for (std::size_t b = 0; b < system.states; ++b) {
+      if (a >= model.states_of(s) || b >= model.states_of(t)) {
+        system.potential.emplace_back([](double) { return reference::Radial{}; });
+        continue;
+      }
+      const auto& u = model.potentials[model.potential_at(s, a, t, b)];
+      system.potential.push_back(radial_function(u, model.cutoff));
+      cutoff = std::max(cutoff, StateMixtureModel::end_of(u, model.cutoff));
+    }
+  system.potential_cutoff.push_back(cutoff);
+}
+
 }  // namespace
 
 reference::StateSystem reference_system(const StateMixtureModel& model, SwitchingForm form) {
@@ -111,20 +127,7 @@ reference::StateSystem reference_system(const StateMixtureModel& model, Switchin
     system.probabilities.push_back(reference::tanh_cascade(thresholds, widths));
     system.mu.insert(system.mu.end(), states.mu.begin(), states.mu.end());
     system.mu.resize((s + 1) * system.states, 0.0);
-    for (std::size_t t = 0; t < system.species; ++t) {
-      double cutoff = 0.0;
-      for (std::size_t a = 0; a < system.states; ++a)
-        for (std::size_t b = 0; b < system.states; ++b) {
-          if (a >= model.states_of(s) || b >= model.states_of(t)) {
-            system.potential.emplace_back([](double) { return reference::Radial{}; });
-            continue;
-          }
-          const auto& u = model.potentials[model.potential_at(s, a, t, b)];
-          system.potential.push_back(radial_function(u, model.cutoff));
-          cutoff = std::max(cutoff, StateMixtureModel::end_of(u, model.cutoff));
-        }
-      system.potential_cutoff.push_back(cutoff);
-    }
+    for (std::size_t t = 0; t < system.species; ++t) add_potentials(system, model, s, t);
   }
   return system;
 }
@@ -135,28 +138,29 @@ reference::StateEvaluation evaluate_reference(const StateMixtureModel& model, co
   return reference::three_passes(configuration.positions, configuration.species, reference_system(model, form), neighbours);
 }
 
-std::vector<Deviation> verify_state_mixtures(const kernels::KernelTable& table, const std::vector<StateMixtureCase>& cases) {
-  Check density(table, "state_densities", tolerance::state_density);
-  Check probability(table, "state_densities probabilities", tolerance::state_probability);
-  Check by_tanh_energy(table, "state_* energy, switching by tanh itself", tolerance::switching_spline_energy);
-  Check by_tanh_gradient(table, "state_* gradient, switching by tanh itself", tolerance::switching_spline_gradient);
-  Check all_pairs(table, "state_* over all pairs energy and gradient", tolerance::state_gradient);
-  PotentialChecks lj(table, "state_lj_"), tables(table, "state_table_");
-  for (const auto& [name, model, configuration] : cases) {
-    const reference::StateEvaluation expected = evaluate_reference(model, configuration);
-    const ParticleLayout layout(configuration.species, model.species.size());
-    const AlignedArray positions = layout.to_slots(configuration.positions);
-    StateMixture interaction(model, configuration.box, layout, table, {});
-    // Whatever is not written must show.
-    AlignedArray g(layout.dimension(), std::numeric_limits<double>::quiet_NaN()), g_stress = g;
-    const double e = interaction.energy(positions);
-    const auto with_gradient = interaction.energy_and_gradient(positions, g);
-    const auto with_stress = interaction.energy_and_stress(positions, g_stress);
+namespace {
 
+struct MixtureChecks {
+  const kernels::KernelTable& table;
+  Check density, probability, by_tanh_energy, by_tanh_gradient, all_pairs;
+  PotentialChecks lj, tables;
+
+  explicit MixtureChecks(const kernels::KernelTable& t)
+      : table(t),
+        density(t, "state_densities", tolerance::state_density),
+        probability(t, "state_densities probabilities", tolerance::state_probability),
+        by_tanh_energy(t, "state_* energy, switching by tanh itself", tolerance::switching_spline_energy),
+        by_tanh_gradient(t, "state_* gradient, switching by tanh itself", tolerance::switching_spline_gradient),
+        all_pairs(t, "state_* over all pairs energy and gradient", tolerance::state_gradient),
+        lj(t, "state_lj_"),
+        tables(t, "state_table_") {}
+
+  void add_states(const std::string& name, StateMixture& interaction, const ParticleLayout& layout,
+                  const reference::StateEvaluation& expected) {
     double worst_density = 0.0, worst_probability = 0.0;
     const std::size_t states = interaction.states().states;
     for (std::size_t i = 0; i < layout.size(); ++i) {
-      // With one state nobody asks for densities.
+      // With one state, densities are not computed.
       if (states > 1)
         worst_density = std::max(worst_density, relative(interaction.order_parameters()[layout.slot_of(i)], expected.densities[i],
                                                          std::max(1.0, expected.densities[i])));
@@ -166,6 +170,20 @@ std::vector<Deviation> verify_state_mixtures(const kernels::KernelTable& table, 
     }
     density.add(name, worst_density);
     probability.add(name, worst_probability);
+  }
+
+  void run(const StateMixtureCase& one) {
+    const auto& [name, model, configuration] = one;
+    const reference::StateEvaluation expected = evaluate_reference(model, configuration);
+    const ParticleLayout layout(configuration.species, model.species.size());
+    const AlignedArray positions = layout.to_slots(configuration.positions);
+    StateMixture interaction(model, configuration.box, layout, table, {});
+    // NaN shows where nothing is written.
+    AlignedArray g(layout.dimension(), std::numeric_limits<double>::quiet_NaN()), g_stress = g;
+    const double e = interaction.energy(positions);
+    const auto with_gradient = interaction.energy_and_gradient(positions, g);
+    const auto with_stress = interaction.energy_and_stress(positions, g_stress);
+    add_states(name, interaction, layout, expected);
 
     PotentialChecks& checks = has_tables(model) ? tables : lj;
     checks.energy.add(name, relative(e, expected.energy, expected.magnitude));
@@ -189,11 +207,22 @@ std::vector<Deviation> verify_state_mixtures(const kernels::KernelTable& table, 
     all_pairs.add(name,
                   std::max(relative(by_all.energy, expected.energy, expected.magnitude), gradient_deviation(g, layout, expected)));
   }
-  std::vector<Deviation> deviations = {density.deviation, probability.deviation, by_tanh_energy.deviation,
-                                       by_tanh_gradient.deviation, all_pairs.deviation};
-  for (const PotentialChecks* checks : {&lj, &tables})
-    for (const Deviation& deviation : checks->deviations()) deviations.push_back(deviation);
-  return deviations;
+
+  std::vector<Deviation> deviations() const {
+    std::vector<Deviation> all = {density.deviation, probability.deviation, by_tanh_energy.deviation, by_tanh_gradient.deviation,
+                                  all_pairs.deviation};
+    for (const PotentialChecks* checks : {&lj, &tables})
+      for (const Deviation& deviation : checks->deviations()) all.push_back(deviation);
+    return all;
+  }
+};
+
+}  // namespace
+
+std::vector<Deviation> verify_state_mixtures(const kernels::KernelTable& table, const std::vector<StateMixtureCase>& cases) {
+  MixtureChecks checks(table);
+  for (const StateMixtureCase& one : cases) checks.run(one);
+  return checks.deviations();
 }
 
 }  // namespace lanescape

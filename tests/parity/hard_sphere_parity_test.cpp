@@ -10,6 +10,7 @@
 #include "dispatch/isa.hpp"
 #include "every_isa.hpp"
 #include "reference/hard_sphere.hpp"
+#include "verification/event_driven_checks.hpp"
 #include "verification/hard_sphere_cases.hpp"
 #include "verification/hard_sphere_checks.hpp"
 

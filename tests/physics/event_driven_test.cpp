@@ -9,7 +9,6 @@
 #include "configuration/hard_sphere_model.hpp"
 #include "configuration/lattice.hpp"
 #include "core/error.hpp"
-#include "core/point.hpp"
 #include "core/run_monitor.hpp"
 #include "dispatch/isa.hpp"
 #include "dynamics/hard_sphere_start.hpp"

@@ -1,0 +1,125 @@
+// Neighbour lists of event-driven dynamics.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "dynamics/event_driven.hpp"
+
+namespace lanescape {
+namespace {
+
+// The mean number of neighbours that shells aim at: two vectors of eight hold nearly every list.
+constexpr double wanted_neighbours = 13.0;
+// The lists allow for this growth; then they are rebuilt.
+constexpr double growth_per_resync = 0.01;
+
+}  // namespace
+
+inline bool EventDriven::Encounters::possible(const Point& at, double radius, const Point& other, double other_radius) const {
+  const double dx = nearest(other[0] - at[0], box.length[0]), dy = nearest(other[1] - at[1], box.length[1]),
+               dz = nearest(other[2] - at[2], box.length[2]);
+  const double reach = (radius + other_radius) * swollen + shells;
+  return dx * dx + dy * dy + dz * dz < reach * reach;
+}
+
+// The shell is as large as lists of the wanted length and the nearest-image rule allow: two particles, each up to a shell away from
+// its list's reference, must still be nearer than half the box.
+void EventDriven::choose_shell() {
+  horizon_ = growth_ > 0.0 ? growth_per_resync / growth_ : never;
+  const double swollen = growth_ > 0.0 ? 1.0 + growth_per_resync : 1.0;
+  double mean_radius = 0.0;
+  for (const auto& s : spheres_) mean_radius += s.radius / static_cast<double>(size());
+  const double per_neighbour = box_.volume() / static_cast<double>(size());
+  const double reach = std::cbrt(wanted_neighbours * per_neighbour * 3.0 / (4.0 * std::numbers::pi));
+  const double largest = 2.0 * largest_radius_ * swollen;
+  const double allowed = 0.25 * (0.5 * box_.shortest() - largest);
+  shell_ = std::min(allowed, std::max(0.05 * largest, 0.5 * (reach - 2.0 * mean_radius * swollen)));
+  grid_ = CellGrid(box_, largest + 2.0 * shell_, size());
+}
+
+void EventDriven::make_lists() {
+  for (std::size_t i = 0; i < size(); ++i) {
+    references_[i] = {spheres_[i].x, spheres_[i].y, spheres_[i].z};
+    grid_.insert(static_cast<std::int32_t>(i), references_[i]);
+  }
+  lists_.assign(size() * list_capacity_, 0);
+  list_sizes_.assign(size(), 0);
+  // The same lists as by for_each_neighbour(), but cell by cell from copies that are contiguous in memory: particles near in space
+  // are far apart in memory.
+  struct Copy {
+    Point reference;
+    double radius;
+    std::int32_t particle;
+  };
+  std::vector<Copy> copies;
+  std::vector<std::size_t> first;  // of each cell, and the end
+  for (std::size_t cell = 0; cell < grid_.cells(); ++cell) {
+    first.push_back(copies.size());
+    grid_.for_each_in(cell, [&](std::int32_t j) {
+      copies.push_back({references_[static_cast<std::size_t>(j)], spheres_[static_cast<std::size_t>(j)].radius, j});
+    });
+  }
+  first.push_back(copies.size());
+  const Encounters encounters = this->encounters();
+  std::vector<std::int32_t> found;
+  for (std::size_t cell = 0; cell < grid_.cells(); ++cell)
+    for (std::size_t self = first[cell]; self < first[cell + 1]; ++self) {
+      found.clear();
+      for (const std::uint32_t other : grid_.cells_near(cell))
+        for (std::size_t k = first[other]; k < first[other + 1]; ++k)
+          if (encounters.possible(copies[self].reference, copies[self].radius, copies[k].reference, copies[k].radius) && k != self)
+            found.push_back(copies[k].particle);
+      const auto i = static_cast<std::size_t>(copies[self].particle);
+      while (found.size() > list_capacity_) grow_lists();
+      std::copy(found.begin(), found.end(), list(i));
+      list_sizes_[i] = static_cast<std::int32_t>(found.size());
+    }
+}
+
+// Calls visit(j) for each particle that can touch particle i before either leaves its shell.
+template <class Visit>
+void EventDriven::for_each_neighbour(std::size_t i, Visit visit) {
+  const Encounters encounters = this->encounters();
+  const auto& at = references_[i];
+  grid_.for_each_near(at, [&](std::int32_t candidate) {
+    const auto j = static_cast<std::size_t>(candidate);
+    if (encounters.possible(at, spheres_[i].radius, references_[j], spheres_[j].radius) && i != j) visit(candidate);
+  });
+}
+
+void EventDriven::grow_lists() {
+  const std::size_t capacity = list_capacity_ + 16;
+  std::vector<std::int32_t> lists(size() * capacity, 0);
+  for (std::size_t i = 0; i < size(); ++i) std::copy_n(list(i), list_sizes_[i], lists.data() + i * capacity);
+  lists_.swap(lists);
+  list_capacity_ = capacity;
+}
+
+void EventDriven::append(std::size_t i, std::int32_t neighbour) {
+  if (static_cast<std::size_t>(list_sizes_[i]) == list_capacity_) grow_lists();
+  list(i)[list_sizes_[i]++] = neighbour;
+}
+
+void EventDriven::remove(std::size_t i, std::int32_t neighbour) {
+  std::int32_t* const begin = list(i);
+  std::int32_t* const last = begin + --list_sizes_[i];
+  *std::find(begin, last, neighbour) = *last;
+}
+
+// Particle i has left its shell: rebuilds its list around its position and updates the lists of others.
+void EventDriven::rebuild_list(std::size_t i) {
+  bring_to_now(i);
+  wrap(i);
+  references_[i] = {spheres_[i].x, spheres_[i].y, spheres_[i].z};
+  const auto self = static_cast<std::int32_t>(i);
+  grid_.move(self, references_[i]);
+  for (std::int32_t k = 0; k < list_sizes_[i]; ++k) remove(static_cast<std::size_t>(list(i)[k]), self);
+  list_sizes_[i] = 0;
+  for_each_neighbour(i, [&](std::int32_t j) {
+    append(i, j);
+    append(static_cast<std::size_t>(j), self);
+  });
+}
+
+}  // namespace lanescape
