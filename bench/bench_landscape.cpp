@@ -14,6 +14,7 @@
 #include "bench_support.hpp"
 #include "interaction/pair/pair_interaction.hpp"
 #include "verification/kernel_checks.hpp"
+#include "verification/pair_checks.hpp"
 #include "verification/reference_bridge.hpp"
 
 namespace lanescape::bench {
@@ -62,7 +63,7 @@ void set_counters(benchmark::State& state, double pairs, double seconds) {
 
 // What is wrong with these kernels on this configuration; empty if nothing is.
 std::string check(Isa isa, const PairModel& model, const Configuration& configuration) {
-  for (const Deviation& d : verify_lennard_jones(kernel_table(isa), {{"the benchmark's liquid", model, configuration}}))
+  for (const Deviation& d : verify_all_pairs(kernel_table(isa), {{"the benchmark's liquid", model, configuration}}))
     if (!d.passed()) return describe(d);
   return "";
 }

@@ -81,7 +81,7 @@ std::string check_gradient(const System& system, Precision precision) {
   AlignedArray in_slots(layout.dimension(), 0.0);
   interaction.gradient(layout.to_slots(system.configuration.positions), in_slots);
   const std::vector<double> gradient = layout.to_user(in_slots);
-  const double allowed = precision == Precision::mixed ? tolerance::lj_mixed_gradient : 1e-11;
+  const double allowed = precision == Precision::mixed ? tolerance::mixed_gradient : 1e-11;
   const std::size_t n = system.configuration.size();
   std::mt19937 choose(1);
   for (int k = 0; k < 64; ++k) {

@@ -31,7 +31,7 @@ enum class LengthUnit : std::uint32_t { box, sigma };
 
 // One species pair of a pair potential, in the unit of the separations. What the coefficients mean is the form's own affair:
 // kernels/forms/<form>.hpp.
-inline constexpr std::size_t pair_coefficients = 8;
+inline constexpr std::size_t pair_coefficients = 9;
 struct PairParameters {
   double cutoff_squared;
   double coefficient[pair_coefficients];

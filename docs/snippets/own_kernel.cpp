@@ -15,6 +15,7 @@
 #include "kernel_table.hpp"
 #include "verification/cases.hpp"
 #include "verification/kernel_checks.hpp"
+#include "verification/pair_checks.hpp"
 #include "verification/reference_bridge.hpp"
 
 namespace {
@@ -93,7 +94,7 @@ KernelTable table_with(const PairKernels& kernels, const char* name) {
 // What the gradient of this table gives, against the scalar reference on every case; a line for each result.
 bool verified(const KernelTable& table) {
   bool passed = true;
-  for (const Deviation& deviation : verify_lennard_jones(table, pair_cases())) {
+  for (const Deviation& deviation : verify_all_pairs(table, pair_cases())) {
     if (!deviation.kernel.starts_with("lennard_jones_gradient ")) continue;
     fmt::print("{}: {}\n", deviation.passed() ? "passed" : "FAILED", describe(deviation));
     passed = passed && deviation.passed();

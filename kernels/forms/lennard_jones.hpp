@@ -25,8 +25,8 @@ struct LennardJones {
 
   template <class Given>
   static LANESCAPE_INLINE Parameters parameters(const Given& p) {
-    const auto c = [&](std::size_t k) { return broadcast_as<V>(p.coefficient[k]); };
-    return {c(0), c(1), c(2), c(3), c(4), broadcast_as<V>(p.cutoff_squared), PairUnit<V>(p)};
+    const auto c = [&](std::size_t k) { return broadcast<V>(p.coefficient[k]); };
+    return {c(0), c(1), c(2), c(3), c(4), broadcast<V>(p.cutoff_squared), PairUnit<V>(p)};
   }
   static LANESCAPE_INLINE auto in_range(const Parameters& u, const Separation<V>& s) { return less(s.r2, u.cutoff_squared); }
   template <class M>

@@ -13,13 +13,11 @@
 // AVX-512, Zen 4, separate runs on a busy machine).
 namespace lanescape::kernels::LANESCAPE_ISA {
 
-// The fourth number of a point in single precision.
-LANESCAPE_INLINE float diameter_at(const std::int32_t* point) { return __builtin_bit_cast(float, point[3]); }
-
-LANESCAPE_INLINE FloatVector gather_diameters(const std::int32_t* points, const std::uint32_t* offsets) {
+// The fourth numbers of points, in fixed units as the coordinates are.
+LANESCAPE_INLINE FloatVector gather_diameters(const std::int32_t* points, const std::uint32_t* offsets, float unit) {
   alignas(array_alignment) float diameters[float_lanes];
-  for (std::size_t k = 0; k < float_lanes; ++k) diameters[k] = diameter_at(points + offsets[k]);
-  return load(diameters);
+  for (std::size_t k = 0; k < float_lanes; ++k) diameters[k] = static_cast<float>(points[offsets[k] + 3]);
+  return load(diameters) * broadcast<FloatVector>(unit);
 }
 
 template <class Form>
@@ -30,13 +28,14 @@ struct MixedRowSums {
 
 template <class Form, Output output>
 LANESCAPE_INLINE void mixed_vector(const std::int32_t* points, const std::uint32_t* offsets, const std::int32_t* row,
-                                   const typename Form::Parameters& u, FloatMask valid, MixedRowSums<Form>& sums) {
+                                   const typename Form::Parameters& u, float unit, FloatMask valid, MixedRowSums<Form>& sums) {
   Vector3<FloatVector> d;
   Separation<FloatVector> separation;
   prefetch(offsets + list_prefetch);
   gather_differences(points, offsets, row, d.x, d.y, d.z);
   if constexpr (Form::has_diameters)
-    separation.sigma2 = Form::sigma_squared(u, broadcast<FloatVector>(diameter_at(row)), gather_diameters(points, offsets));
+    separation.sigma2 =
+        Form::sigma_squared(u, broadcast<FloatVector>(static_cast<float>(row[3]) * unit), gather_diameters(points, offsets, unit));
   separation.r2 = squared_length(d);
   const FloatMask in_range = both(valid, Form::in_range(u, separation));
   const auto terms = Form::terms(u, separation, in_range);
@@ -60,7 +59,8 @@ LANESCAPE_INLINE void mixed_rows(const PairListInput& in, double* gradient, Tota
       const auto u = Single::parameters(in.single_pairs[s]);
       const std::size_t count = *length;
       for (std::size_t j = 0; j < count; j += float_lanes)
-        mixed_vector<Single, output>(list.fixed_points, offsets + j, row, u, lanes_below<FloatVector>(count - j), sums);
+        mixed_vector<Single, output>(list.fixed_points, offsets + j, row, u, static_cast<float>(list.fixed_unit),
+                                     lanes_below<FloatVector>(count - j), sums);
       offsets += padded_length(count);
       if constexpr (has_energy(output)) add_sums(totals, Form<Vector>::parameters(in.pairs[s]), widened(sums.pairs));
     }

@@ -16,16 +16,9 @@ enum class Output { energy, force, gradient, stress };
 constexpr bool has_energy(Output output) { return output != Output::force; }
 constexpr bool has_gradient(Output output) { return output != Output::energy; }
 
-template <class V, class Number>
-LANESCAPE_INLINE V broadcast_as(Number number) {
-  if constexpr (std::is_same_v<V, Vector>)
-    return broadcast(number);
-  else
-    return broadcast<FloatVector>(number);
-}
 template <class V>
 LANESCAPE_INLINE V zero() {
-  return broadcast_as<V>(0);
+  return broadcast<V>(0);
 }
 
 template <class V>

@@ -172,6 +172,19 @@ Configuration fcc_start(const Mixture& model, std::size_t particles, double dens
   return start;
 }
 
+Configuration fcc_start(const PairModel& model, std::size_t particles, double density, std::uint64_t seed) {
+  Configuration start = fcc_start(static_cast<const Mixture&>(model), particles, density, seed);
+  if (!model.form->has_diameters) return start;
+  constexpr double ratio = 0.45, largest = 0.5 * (1.0 + ratio) / ratio, smallest = ratio * largest;
+  const double most = 1.0 / (smallest * smallest), least = 1.0 / (largest * largest);
+  for (std::size_t i = 0; i < particles; ++i) {
+    const double quantile = (static_cast<double>(i) + 0.5) / static_cast<double>(particles);
+    start.diameters.push_back(1.0 / std::sqrt(most - quantile * (most - least)));
+  }
+  shuffle(start.diameters, CounterRandom(seed, RandomStream::diameters));
+  return start;
+}
+
 Configuration hard_sphere_start(const HardSphereModel& model, std::size_t particles, double packing_fraction,
                                 Arrangement arrangement, std::uint64_t seed) {
   check_particles(particles);

@@ -5,6 +5,7 @@
 #include "configuration/configuration.hpp"
 #include "configuration/hard_sphere_model.hpp"
 #include "configuration/mixture.hpp"
+#include "configuration/pair_model.hpp"
 
 namespace lanescape {
 
@@ -13,6 +14,10 @@ namespace lanescape {
 // drawn at random too. Throws Error(bad_input) for no or over four million
 // particles and absurd densities.
 Configuration fcc_start(const Mixture& model, std::size_t particles, double density, std::uint64_t seed);
+
+// The same with a diameter of each particle where the model's have one: the quantiles of the distribution that falls as
+// diameter^-3, with mean 1 and the ratio 0.45 of smallest to largest, in random order. doi 10.1103/PhysRevX.7.021039
+Configuration fcc_start(const PairModel& model, std::size_t particles, double density, std::uint64_t seed);
 
 // Where species go on a lattice: anywhere, or each in its own part of the box along x, the largest spheres first.
 enum class Arrangement { random, halves };

@@ -12,8 +12,7 @@ namespace lanescape {
 // What a name or a model file stands for.
 using Model = std::variant<PairModel, HardSphereModel, StateMixtureModel>;
 
-// "kob-andersen", "lennard-jones", "hard-sphere", "hard-sphere-binary" or "ucg"; anything else throws Error(bad_input) naming
-// these.
+// The model of a name; any other throws Error(bad_input) naming all there are.
 Model named_model(std::string_view name);
 const Mixture& mixture_of(const Model& model);
 

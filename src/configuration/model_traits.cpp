@@ -9,7 +9,7 @@ ModelTraits traits_of(const Model& model) {
                                  return ModelTraits{.family = Family::soft,
                                                     .particles = "soft particles",
                                                     .images = pairs.images,
-                                                    .sizes = SizeColumn::ignored,
+                                                    .sizes = pairs.form->has_diameters ? SizeColumn::diameter : SizeColumn::ignored,
                                                     .has_precision = true,
                                                     .has_states = false};
                                },

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <limits>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -34,8 +37,14 @@ struct PairTail {
 struct FormNumber {
   const char* key;  // in model files
   double lowest, highest;
-  bool even;      // a whole, even number
-  double preset;  // NaN: has to be given
+  bool even;                     // a whole, even number
+  std::optional<double> preset;  // none: it has to be given
+};
+
+// The same potential as another form has it.
+struct EquivalentForm {
+  const char* word = nullptr;
+  std::vector<double> numbers;
 };
 
 // A pair potential: its name, its numbers, u(r) as a scalar function, and what its kernels take. The scalar function serves
@@ -44,8 +53,12 @@ struct PairForm {
   const char* word = "";                                        // kind in model files
   kernels::PairForm kernel = kernels::PairForm::lennard_jones;  // the loops over it
   std::vector<FormNumber> numbers;
-  // The form ends at sigma: the cutoff is 1, in units of sigma.
-  bool ends_at_sigma = false;
+  // Throws Error(bad_input) for numbers that do not go together.
+  void (*check_numbers)(std::span<const double>) = nullptr;
+  // The form is zero from here on, in units of sigma: this is its cutoff, and no other is allowed. Infinity: any cutoff is.
+  double range = std::numeric_limits<double>::infinity();
+  // Nearer than this u(r) has lost all meaning [sigma_ab].
+  double smallest_separation = 0.3;
   // Particles have diameters of their own, which take the place of sigma.
   bool has_diameters = false;
   // Not truncated.
@@ -57,10 +70,14 @@ struct PairForm {
   // The form's coefficients for its kernel, lengths in a unit of so many sigma.
   void (*coefficients)(const PairNumbers&, const PairCorrection&, double unit,
                        std::span<double, kernels::pair_coefficients> out) = nullptr;
+  // Whose kernels are taken with a truncation that is more than a shift, where its own know shifts only.
+  EquivalentForm truncated_as{};
 };
 
 // All there are, Lennard-Jones first.
 std::span<const PairForm> pair_forms();
+// Their words, separated by commas.
+std::string pair_form_words();
 // Throws Error(bad_input) naming the words there are.
 const PairForm& pair_form(std::string_view word);
 const PairForm& lennard_jones_form();

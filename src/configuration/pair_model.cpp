@@ -46,10 +46,10 @@ double PairModel::largest_cutoff() const {
   return largest;
 }
 
-PairCorrection PairModel::correction(std::size_t ab) const {
+PairCorrection PairModel::correction(const PairNumbers& numbers) const {
   if (truncation == Truncation::plain || truncation == Truncation::tail) return {};
-  const double rc = cutoff_of(ab), rc2 = rc * rc;
-  const PairDerivatives at = form->derivatives(numbers(ab), rc);
+  const double rc = cutoff * numbers.sigma, rc2 = rc * rc;
+  const PairDerivatives at = form->derivatives(numbers, rc);
   if (truncation == Truncation::shifted) return {.c0 = -at.u};
   if (truncation == Truncation::shifted_force) return {.c0 = at.first - at.u, .c1 = -at.first / rc};
   // With t = r^2 the correction is a parabola in t, which takes over value, slope and curvature at rc.
@@ -58,12 +58,45 @@ PairCorrection PairModel::correction(std::size_t ab) const {
   return {.c0 = -at.u - c2 * rc2 - c4 * rc2 * rc2, .c2 = c2, .c4 = c4};
 }
 
-PairDerivatives PairModel::derivatives(std::size_t ab, double r) const {
-  const PairCorrection c = correction(ab);
-  const PairDerivatives at = form->derivatives(numbers(ab), r);
+namespace {
+
+bool takes_equivalent(const PairModel& model) {
+  const bool more_than_shift = model.truncation == Truncation::shifted_force || model.truncation == Truncation::smooth;
+  return more_than_shift && model.form->truncated_as.word != nullptr;
+}
+
+}  // namespace
+
+const PairForm& PairModel::kernel_form() const { return takes_equivalent(*this) ? pair_form(form->truncated_as.word) : *form; }
+
+std::span<const double> PairModel::kernel_numbers() const {
+  return takes_equivalent(*this) ? std::span<const double>(form->truncated_as.numbers) : form_numbers;
+}
+
+PairDerivatives PairModel::derivatives(const PairNumbers& numbers, double r) const {
+  const PairCorrection c = correction(numbers);
+  const PairDerivatives at = form->derivatives(numbers, r);
   const double r2 = r * r, r4 = r2 * r2;
   return {at.u + (c.c0 + c.c1 * r + c.c2 * r2 + c.c4 * r4), at.first + (c.c1 * r + 2.0 * c.c2 * r2 + 4.0 * c.c4 * r4),
           at.second + (2.0 * c.c2 * r2 + 12.0 * c.c4 * r4)};
+}
+
+void PairModel::check_form() const {
+  if (form_numbers.size() != form->numbers.size())
+    throw_bad_input(fmt::format("model {}: {} numbers of the potential {} are needed", name, form->numbers.size(), form->word));
+  for (std::size_t k = 0; k < form_numbers.size(); ++k) {
+    const auto& [key, lowest, highest, even, preset] = form->numbers[k];
+    const double value = form_numbers[k];
+    if (!(value >= lowest && value <= highest) || (even && std::remainder(value, 2.0) != 0.0))
+      throw_bad_input(fmt::format("model {}: {} {} is not allowed: {} from {} to {} is needed", name, key, value,
+                                  even ? "an even number" : "a number", lowest, highest));
+  }
+  if (form->check_numbers != nullptr) form->check_numbers(form_numbers);
+  if (std::isfinite(form->range) && cutoff != form->range)
+    throw_bad_input(
+        fmt::format("cutoff {} is not allowed with the potential {}: it ends at {} sigma_ab", cutoff, form->word, form->range));
+  if (truncation == Truncation::tail && (form->tail == nullptr || !std::isfinite(form->tail(numbers(0), cutoff).energy)))
+    throw_bad_input(fmt::format("truncation tail is not allowed with the potential {}: it has no long-range integral", form->word));
 }
 
 void PairModel::check() const {
@@ -71,6 +104,7 @@ void PairModel::check() const {
   const std::size_t n = species.size();
   if (epsilon.size() != n * n || sigma.size() != n * n)
     throw_bad_input(fmt::format("model {}: {} species need {} pair parameters", name, n, n * n));
+  check_form();
   if (!(cutoff > 0.0) || !std::isfinite(cutoff))
     throw_bad_input(fmt::format("cutoff {} is not allowed: it must be a finite number above 0 (in units of sigma_ab)", cutoff));
   for (std::size_t a = 0; a < n; ++a)
@@ -79,6 +113,10 @@ void PairModel::check() const {
       if (!(e >= 0.0) || !std::isfinite(e) || !(s > 0.0) || !std::isfinite(s))
         throw_bad_input(fmt::format("pair {}-{}: epsilon {} and sigma {} must be finite, epsilon at least 0 and sigma above 0",
                                     species[a].name, species[b].name, e, s));
+      if (form->has_diameters && s != 1.0)
+        throw_bad_input(
+            fmt::format("pair {}-{}: sigma {} is not allowed with the potential {}: 1 is needed, particles have diameters",
+                        species[a].name, species[b].name, s, form->word));
       if (e != epsilon[pair(b, a)] || s != sigma[pair(b, a)])
         throw_bad_input(fmt::format("pair {}-{} differs from its mirror image", species[a].name, species[b].name));
     }
@@ -99,6 +137,34 @@ PairModel lennard_jones() {
   model.species = {{"Ar", 1.0, 1.0}};
   model.epsilon = {1.0};
   model.sigma = {1.0};
+  return model;
+}
+
+PairModel wca() {
+  PairModel model = lennard_jones();
+  model.name = "wca";
+  model.cutoff = std::pow(2.0, 1.0 / 6.0);
+  return model;
+}
+
+PairModel wahnstrom() {
+  PairModel model;
+  model.name = "wahnstrom";
+  model.species = {{"Ni", 2.0, 0.5}, {"P", 1.0, 0.5}};
+  model.epsilon = {1.0, 1.0, 1.0, 1.0};
+  model.sigma = {1.0, 11.0 / 12.0, 11.0 / 12.0, 5.0 / 6.0};
+  return model;
+}
+
+PairModel one_component(const PairForm& form) {
+  PairModel model = lennard_jones();
+  model.name = form.word;
+  model.form = &form;
+  for (const FormNumber& number : form.numbers) {
+    if (!number.preset) throw_bad_input(fmt::format("the potential {} needs {}: give it in a model file", form.word, number.key));
+    model.form_numbers.push_back(*number.preset);
+  }
+  if (std::isfinite(form.range)) model.cutoff = form.range;
   return model;
 }
 

@@ -41,17 +41,29 @@ struct PairModel : Mixture {
   double cutoff_of(std::size_t ab) const { return cutoff * sigma[ab]; }  // [sigma]
   double largest_cutoff() const;                                         // of all pairs [sigma]
   // What the truncation adds to u(r) of a pair of species.
-  PairCorrection correction(std::size_t ab) const;
+  PairCorrection correction(const PairNumbers& numbers) const;
+  // The form whose kernels sum it up, and its numbers: `form` and form_numbers, but for some truncations.
+  const PairForm& kernel_form() const;
+  std::span<const double> kernel_numbers() const;
   // Of the truncated potential, below the cutoff.
-  PairDerivatives derivatives(std::size_t ab, double r) const;
+  PairDerivatives derivatives(const PairNumbers& numbers, double r) const;
   // Throws Error(bad_input) unless species are sound, sizes match, matrices are symmetric and every number is finite and in range.
   void check() const;
+
+ private:
+  void check_form() const;
 };
 
 // Kob and Andersen's 80:20 mixture, doi 10.1103/PhysRevE.51.4626; A is written Ni and B is written P.
 PairModel kob_andersen();
 // One component, written Ar.
 PairModel lennard_jones();
+// Lennard-Jones cut and shifted at its minimum, doi 10.1063/1.1674820; written Ar.
+PairModel wca();
+// Wahnstrom's 50:50 mixture, doi 10.1103/PhysRevA.44.3752: A is twice as heavy as B, whose sigma is 5/6; written Ni and P.
+PairModel wahnstrom();
+// A form with its preset numbers, epsilon = sigma = 1; written Ar. Throws Error(bad_input) where a number has no preset.
+PairModel one_component(const PairForm& form);
 // "kob-andersen" or "lennard-jones"; anything else throws Error(bad_input) naming these.
 PairModel named_pair_model(std::string_view name);
 

@@ -10,7 +10,7 @@
 namespace lanescape {
 namespace {
 
-std::vector<std::size_t> in_users_order(std::size_t n) {
+std::vector<std::size_t> as_given(std::size_t n) {
   std::vector<std::size_t> particles(n);
   std::iota(particles.begin(), particles.end(), std::size_t{0});
   return particles;
@@ -36,13 +36,20 @@ std::vector<std::size_t> by_place(const Configuration& configuration) {
 }  // namespace
 
 ParticleLayout::ParticleLayout(const std::vector<int>& species, std::size_t species_count) {
-  assign(species, species_count, in_users_order(species.size()));
+  assign(species, species_count, as_given(species.size()));
 }
 
 ParticleLayout ParticleLayout::in_space_order(const Configuration& configuration, std::size_t species_count) {
   const std::size_t n = configuration.size();
   ParticleLayout layout;
-  layout.assign(configuration.species, species_count, n < sorted_from ? in_users_order(n) : by_place(configuration));
+  layout.assign(configuration.species, species_count, n < sorted_from ? as_given(n) : by_place(configuration));
+  if (!configuration.diameters.empty()) layout.diameters_ = layout.per_slot(configuration.diameters, 0.0);
+  return layout;
+}
+
+ParticleLayout ParticleLayout::in_users_order(const Configuration& configuration, std::size_t species_count) {
+  ParticleLayout layout(configuration.species, species_count);
+  if (!configuration.diameters.empty()) layout.diameters_ = layout.per_slot(configuration.diameters, 0.0);
   return layout;
 }
 

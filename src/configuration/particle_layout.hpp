@@ -21,12 +21,16 @@ class ParticleLayout {
   // points: what is near in space is then near in memory, until particles have diffused away.
   static ParticleLayout in_space_order(const Configuration& configuration, std::size_t species_count);
   static constexpr std::size_t sorted_from = 2000;
+  // Within a species in the user's order, whatever the size.
+  static ParticleLayout in_users_order(const Configuration& configuration, std::size_t species_count);
 
   std::size_t size() const { return slot_of_.size(); }  // N
   std::size_t slots() const { return slots_; }          // padded
   std::size_t dimension() const { return 3 * slots_; }  // length of every coordinate array
   const std::vector<kernels::SpeciesBlock>& blocks() const { return blocks_; }
   std::size_t slot_of(std::size_t particle) const { return slot_of_[particle]; }
+  // One per slot, zero for padding; empty where the configuration has none [sigma].
+  const AlignedArray& diameters() const { return diameters_; }
 
   // From 3N interleaved user coordinates, and back.
   AlignedArray to_slots(std::span<const double> interleaved) const;
@@ -42,6 +46,7 @@ class ParticleLayout {
   std::vector<std::size_t> slot_of_;
   std::vector<kernels::SpeciesBlock> blocks_;
   std::size_t slots_ = 0;
+  AlignedArray diameters_;
 };
 
 }  // namespace lanescape

@@ -18,10 +18,11 @@ Model read_model(const TomlReader& toml, const std::string& default_name) {
   const std::string word = toml.text(kind, "kind");
   const toml::node* name = toml.root().get("name");
   const std::string model_name = name ? toml.text(*name, "name") : default_name;
-  if (word == "lennard-jones") return read_pair_model(toml, model_name);
+  for (const PairForm& form : pair_forms())
+    if (word == form.word) return read_pair_model(toml, form, model_name);
   if (word == "hard-sphere") return read_hard_sphere_model(toml, model_name);
   if (word == "ucg") return read_state_mixture_model(toml, model_name);
-  toml.refuse(kind, fmt::format("unknown kind '{}': allowed are lennard-jones, hard-sphere, ucg", word));
+  toml.refuse(kind, fmt::format("unknown kind '{}': allowed are {}, hard-sphere, ucg", word, pair_form_words()));
 }
 
 std::string read_text(const std::filesystem::path& path) {

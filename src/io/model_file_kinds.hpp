@@ -8,7 +8,7 @@
 // One reader and one writer for each kind of model; each pair stands in a file of its own.
 namespace lanescape {
 
-PairModel read_pair_model(const TomlReader& toml, const std::string& name);
+PairModel read_pair_model(const TomlReader& toml, const PairForm& form, const std::string& name);
 HardSphereModel read_hard_sphere_model(const TomlReader& toml, const std::string& name);
 StateMixtureModel read_state_mixture_model(const TomlReader& toml, const std::string& name);
 

@@ -24,7 +24,7 @@ std::string read_species_name(const TomlReader& toml, const toml::table& section
 
 }  // namespace
 
-std::vector<Species> read_species(const TomlReader& toml, std::initializer_list<std::string_view> keys) {
+std::vector<Species> read_species(const TomlReader& toml, const std::vector<std::string_view>& keys) {
   const auto sections = toml.tables(toml.root(), "species");
   if (sections.size() > most_species)
     toml.refuse(*sections.back(), fmt::format("{} species are not allowed: at most {} are", sections.size(), most_species));

@@ -14,7 +14,7 @@
 namespace lanescape {
 
 // The sections [[species]]; `keys` are those that a species of this kind of model may have.
-std::vector<Species> read_species(const TomlReader& toml, std::initializer_list<std::string_view> keys);
+std::vector<Species> read_species(const TomlReader& toml, const std::vector<std::string_view>& keys);
 std::size_t species_index(const TomlReader& toml, const toml::node& node, const Mixture& mixture);
 // species = ["A", "B"] of a section.
 std::array<std::size_t, 2> read_species_pair(const TomlReader& toml, const toml::table& pair, const Mixture& mixture);

@@ -1,3 +1,7 @@
+#include <cmath>
+#include <string_view>
+#include <vector>
+
 #include "io/model_file_kinds.hpp"
 #include "io/model_sections.hpp"
 
@@ -27,10 +31,17 @@ void read_pairs(const TomlReader& toml, PairModel& model) {
 
 }  // namespace
 
-PairModel read_pair_model(const TomlReader& toml, const std::string& name) {
-  toml.allow_keys(toml.root(), {"kind", "name", "cutoff", "truncation", "images", "species", "pair"});
+PairModel read_pair_model(const TomlReader& toml, const PairForm& form, const std::string& name) {
+  std::vector<std::string_view> keys = {"kind", "name", "cutoff", "truncation", "images", "species", "pair"};
+  for (const FormNumber& number : form.numbers) keys.emplace_back(number.key);
+  toml.allow_keys(toml.root(), keys);
   PairModel model;
   model.name = name;
+  model.form = &form;
+  if (std::isfinite(form.range)) model.cutoff = form.range;
+  for (const FormNumber& number : form.numbers)
+    model.form_numbers.push_back(number.preset ? toml.number_or(toml.root(), number.key, finite_number, *number.preset)
+                                               : toml.number(toml.root(), number.key, finite_number));
   model.cutoff = toml.number_or(toml.root(), "cutoff", positive_number, model.cutoff);
   if (const toml::node* node = toml.root().get("truncation")) {
     const std::string word = toml.text(*node, "truncation");
@@ -47,7 +58,9 @@ PairModel read_pair_model(const TomlReader& toml, const std::string& name) {
 }
 
 std::string to_toml(const PairModel& model) {
-  std::string text = model_header(model, "lennard-jones");
+  std::string text = model_header(model, model.form->word);
+  for (std::size_t k = 0; k < model.form_numbers.size(); ++k)
+    text += fmt::format("{} = {}\n", model.form->numbers[k].key, model.form_numbers[k]);
   text += fmt::format("cutoff = {}\ntruncation = \"{}\"\nimages = \"{}\"\n", model.cutoff, to_string(model.truncation),
                       to_string(model.images));
   for (const Species& species : model.species) text += species_section(species);

@@ -15,7 +15,7 @@ void TomlReader::refuse(const toml::node& at, const std::string& what_and_allowe
   throw_bad_input(fmt::format("{}:{}: {}", file_, std::max<std::size_t>(at.source().begin.line, 1), what_and_allowed));
 }
 
-void TomlReader::allow_keys(const toml::table& table, std::initializer_list<std::string_view> keys) const {
+void TomlReader::allow_keys(const toml::table& table, const std::vector<std::string_view>& keys) const {
   for (const auto& [key, node] : table)
     if (std::find(keys.begin(), keys.end(), key.str()) == keys.end()) {
       const std::size_t line = key.source().begin.line;

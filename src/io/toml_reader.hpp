@@ -28,7 +28,7 @@ class TomlReader {
 
   const toml::table& root() const { return root_; }
   [[noreturn]] void refuse(const toml::node& at, const std::string& what_and_allowed) const;
-  void allow_keys(const toml::table& table, std::initializer_list<std::string_view> keys) const;
+  void allow_keys(const toml::table& table, const std::vector<std::string_view>& keys) const;
   const toml::node& need(const toml::table& table, std::string_view key) const;
   double number(const toml::node& node, std::string_view key, const NumberRange& range) const;
   double number(const toml::table& table, std::string_view key, const NumberRange& range) const {

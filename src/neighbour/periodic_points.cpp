@@ -184,8 +184,9 @@ void PeriodicPoints::refresh(const AlignedArray& positions, int part) {
 }
 
 void PeriodicPoints::set_values(const AlignedArray& per_slot, std::size_t stride, int part) {
-  for (std::size_t k = part_begin(size(), part, threads_); k < part_begin(size(), part + 1, threads_); ++k)
-    points_[kernels::point_width * k + 3] = per_slot[stride * slots_[k]];
+  const std::size_t begin = part_begin(size(), part, threads_), end = part_begin(size(), part + 1, threads_);
+  for (std::size_t k = begin; k < end; ++k) points_[kernels::point_width * k + 3] = per_slot[stride * slots_[k]];
+  if (fixed_unit_ > 0.0) fix_points(begin, end);
 }
 
 void PeriodicPoints::fix_points(std::size_t begin, std::size_t end) {

@@ -56,19 +56,20 @@ void ProbeCells::for_each_image(const Point& point, Visit visit) const {
         visit(Point{home[0] + a * box_.length[0], home[1] + b * box_.length[1], home[2] + c * box_.length[2]});
 }
 
-void ProbeCells::assign(const std::vector<Point>& points) {
-  std::vector<Point> images;
-  for (const Point& point : points) for_each_image(point, [&](const Point& image) { images.push_back(image); });
+void ProbeCells::assign(const std::vector<Point>& points, const std::vector<double>& diameters) {
+  std::vector<Image> images;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for_each_image(points[i], [&](const Point& image) { images.push_back({image, diameters.empty() ? 0.0 : diameters[i]}); });
   size_ = points.size();
   lay_out(images);
 }
 
 // A counting sort.
-void ProbeCells::lay_out(const std::vector<Point>& images) {
+void ProbeCells::lay_out(const std::vector<Image>& images) {
   const std::size_t columns = limit_.size(), stride = shape_.cells[2] + 1;
   first_.assign(columns * stride, 0);
-  for (const Point& image : images) {
-    const Place place = place_of(image);
+  for (const Image& image : images) {
+    const Place place = place_of(image.position);
     ++first_[place.column * stride + place.cell];
   }
   const std::size_t room = 4 + images.size() / columns / 4;
@@ -81,40 +82,41 @@ void ProbeCells::lay_out(const std::vector<Point>& images) {
   }
   for (auto& column : columns_) column.assign(next + kernels::slot_padding, 0.0);
   for (std::size_t k = images.size(); k-- > 0;) {
-    const Place place = place_of(images[k]);
+    const Place place = place_of(images[k].position);
     const std::uint32_t at = --first_[place.column * stride + place.cell];
-    for (std::size_t axis = 0; axis < 3; ++axis) columns_[axis][at] = images[k][axis];
+    for (std::size_t axis = 0; axis < 3; ++axis) columns_[axis][at] = images[k].position[axis];
+    columns_[3][at] = images[k].diameter;
   }
 }
 
-std::vector<ProbeCells::Point> ProbeCells::all_images() const {
-  std::vector<Point> images;
+std::vector<ProbeCells::Image> ProbeCells::all_images() const {
+  std::vector<Image> images;
   const std::size_t stride = shape_.cells[2] + 1;
   for (std::size_t column = 0; column < limit_.size(); ++column)
     for (std::uint32_t k = first_[column * stride]; k < first_[column * stride + stride - 1]; ++k)
-      images.push_back({columns_[0][k], columns_[1][k], columns_[2][k]});
+      images.push_back({{columns_[0][k], columns_[1][k], columns_[2][k]}, columns_[3][k]});
   return images;
 }
 
-void ProbeCells::insert(const Point& point) {
-  for_each_image(point, [&](const Point& image) { insert_image(image); });
+void ProbeCells::insert(const Point& point, double diameter) {
+  for_each_image(point, [&](const Point& image) { insert_image({image, diameter}); });
   ++size_;
 }
 
-void ProbeCells::insert_image(const Point& image) {
-  const Place place = place_of(image);
+void ProbeCells::insert_image(const Image& image) {
+  const Place place = place_of(image.position);
   std::uint32_t* first = first_.data() + place.column * (shape_.cells[2] + 1);
   if (first[shape_.cells[2]] == limit_[place.column]) {
-    std::vector<Point> images = all_images();
+    std::vector<Image> images = all_images();
     images.push_back(image);
     lay_out(images);
     return;
   }
   const std::uint32_t at = first[place.cell + 1], end = first[shape_.cells[2]];
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    double* x = columns_[axis].data();
+  for (std::size_t column = 0; column < 4; ++column) {
+    double* x = columns_[column].data();
     std::move_backward(x + at, x + end, x + end + 1);
-    x[at] = image[axis];
+    x[at] = column < 3 ? image.position[column] : image.diameter;
   }
   for (std::size_t cell = place.cell + 1; cell <= shape_.cells[2]; ++cell) ++first[cell];
 }
@@ -143,6 +145,7 @@ kernels::ProbeSpecies ProbeCells::view() const {
   view.x = columns_[0].data();
   view.y = columns_[1].data();
   view.z = columns_[2].data();
+  view.diameters = columns_[3].data();
   return view;
 }
 

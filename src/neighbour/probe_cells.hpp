@@ -21,8 +21,9 @@ class ProbeCells {
   ProbeCells(const Box& box, double reach, std::size_t expected);
 
   // Takes these points, wrapped or not, in place of all others. O(N).
-  void assign(const std::vector<Point>& points);
-  void insert(const Point& point);
+  // `diameters`: of each, or none [sigma].
+  void assign(const std::vector<Point>& points, const std::vector<double>& diameters = {});
+  void insert(const Point& point, double diameter = 0.0);
   // Takes out a point that is in; false where there is none with these coordinates, to the bit.
   bool remove(const Point& point);
 
@@ -31,6 +32,10 @@ class ProbeCells {
   kernels::ProbeSpecies view() const;
 
  private:
+  struct Image {
+    Point position;
+    double diameter;
+  };
   struct Place {
     std::size_t column, cell;
   };
@@ -38,18 +43,18 @@ class ProbeCells {
   // Calls visit(image) for each image of a point that lies in the grid, itself first.
   template <class Visit>
   void for_each_image(const Point& point, Visit visit) const;
-  void insert_image(const Point& image);
+  void insert_image(const Image& image);
   // Moves all points into columns with room for a quarter more, and four.
-  void lay_out(const std::vector<Point>& images);
-  std::vector<Point> all_images() const;
+  void lay_out(const std::vector<Image>& images);
+  std::vector<Image> all_images() const;
 
   Box box_;
   double reach_;
   std::size_t size_ = 0;
   kernels::GridShape shape_{};
-  AlignedVector<std::uint32_t> first_;  // cells[2] + 1 per column
-  std::vector<std::uint32_t> limit_;    // of each column's points
-  std::array<AlignedArray, 3> columns_;
+  AlignedVector<std::uint32_t> first_;   // cells[2] + 1 per column
+  std::vector<std::uint32_t> limit_;     // of each column's points
+  std::array<AlignedArray, 4> columns_;  // x, y, z, diameters
 };
 
 }  // namespace lanescape

@@ -1,6 +1,7 @@
 #include "verification/cases.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +11,7 @@
 #include <utility>
 
 #include "core/box.hpp"
+#include "core/error.hpp"
 #include "core/random.hpp"
 
 namespace lanescape {
@@ -183,6 +185,46 @@ void add_empty_species(std::vector<PairCase>& cases) {
     }
 }
 
+// Two species of a form with these numbers.
+PairModel two_species(const PairForm& form, const std::vector<double>& numbers) {
+  PairModel model = kob_andersen();
+  model.name = form.word;
+  model.form = &form;
+  model.form_numbers = numbers;
+  if (std::isfinite(form.range)) model.cutoff = form.range;
+  if (form.has_diameters) {
+    model.epsilon = {1.0, 1.0, 1.0, 1.0};
+    model.sigma = {1.0, 1.0, 1.0, 1.0};
+  }
+  return model;
+}
+
+// Numbers of a form: its presets, and others.
+std::vector<std::vector<double>> numbers_of(const PairForm& form) {
+  std::vector<std::vector<double>> all(2);
+  for (const FormNumber& number : form.numbers) {
+    all[0].push_back(number.preset.value_or(1.5));
+    all[1].push_back(number.even ? 2.0 * std::round(0.6 * number.preset.value_or(10.0)) : 2.0 * number.preset.value_or(2.0));
+  }
+  if (form.numbers.empty()) all.pop_back();
+  return all;
+}
+
+bool allows(const PairModel& model) {
+  try {
+    model.check();
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+void give_diameters(Configuration& configuration) {
+  const CounterRandom random(seed, RandomStream::velocities);
+  for (std::uint32_t i = 0; i < configuration.size(); ++i)
+    configuration.diameters.push_back(0.8 + 0.4 * random.uniform(configuration.size(), i));
+}
+
 }  // namespace
 
 std::vector<PairCase> pair_cases() {
@@ -192,6 +234,33 @@ std::vector<PairCase> pair_cases() {
   add_cutoff_edges(cases);
   add_pairs(cases);
   add_empty_species(cases);
+  return cases;
+}
+
+std::string name_in_results(const PairForm& form) {
+  std::string name = form.word;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+std::vector<PairCase> form_cases(const PairForm& form) {
+  std::vector<PairCase> cases;
+  for (const auto& numbers : numbers_of(form))
+    for (const std::size_t n : {1U, 2U, 9U, 31U, 108U, 257U}) {
+      PairModel model = two_species(form, numbers);
+      Configuration configuration =
+          rattled(densest_lattice(n), cube(std::cbrt(static_cast<double>(n) / 1.2)), model.species.size());
+      if (form.has_diameters) give_diameters(configuration);
+      for (const ImageRule images : image_rules)
+        for (const Truncation truncation :
+             {Truncation::shifted, Truncation::plain, Truncation::tail, Truncation::shifted_force, Truncation::smooth}) {
+          const PairModel truncated = with(model, images, truncation);
+          if (allows(truncated))
+            cases.push_back(
+                {fmt::format("{} {} N={} {} {}", form.word, fmt::join(numbers, ","), n, to_string(images), to_string(truncation)),
+                 truncated, configuration});
+        }
+    }
   return cases;
 }
 

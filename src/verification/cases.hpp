@@ -19,4 +19,9 @@ struct PairCase {
 // tails), image rule, truncation and mixture at density 1.2, and boxes and pairs on the edges of the algorithm.
 std::vector<PairCase> pair_cases();
 
+// The same for any pair potential, fewer: sizes, image rules, every truncation that it allows, two species.
+std::vector<PairCase> form_cases(const PairForm& form);
+// How results of its kernels are called: its word, with underscores.
+std::string name_in_results(const PairForm& form);
+
 }  // namespace lanescape

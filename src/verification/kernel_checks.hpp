@@ -17,19 +17,21 @@ namespace tolerance {
 // differently: the one divides positions by the box and the other subtracts whole boxes, each to 2^-53 of a coordinate x, and
 // r^-12 turns an error of r into twelve times the relative error of u. A single close pair shows it in full (measured 4.8e-15
 // at x = 54, where half an ulp is 3.6e-15), a sum over many pairs less.
-inline constexpr double lj_sums = 2e-14;
+inline constexpr double pair_sums = 2e-14;
 
 // Gradients, per particle and relative to the sum of its absolute pair forces. Few pairs make up the force on one particle,
 // so that nothing averages out, and r^-13 has one power more (measured 6.4e-14 at x = 25).
-inline constexpr double lj_gradient = 3e-13;
+inline constexpr double pair_gradient = 3e-13;
 
 // The same in mixed precision, whose pairs are rounded to 2^-24 = 6e-8: once for each separation, of which r^-13 and r^-12 make
 // thirteen and twelve times, and once for each operation that follows (measured 3.9e-7 for a single close pair, and 6.8e-7 for the
 // worst of the forces on a few hundred particles, of 13 x 2^-24 = 7.7e-7).
-inline constexpr double lj_mixed_sums = 1.8e-6;
-inline constexpr double lj_mixed_gradient = 3.2e-6;
+inline constexpr double mixed_sums = 1.8e-6;
+inline constexpr double mixed_gradient = 3.2e-6;
+// With diameters of particles: sigma_ij is rounded too, and r^-13 is one of sigma_ij^12 (measured 2.9e-6).
+inline constexpr double mixed_diameters_gradient = 1.2e-5;
 // Pairs so near to the cutoff, relative to it, may or may not count: cases with one are left out.
-inline constexpr double lj_mixed_cutoff = 0x1p-22;
+inline constexpr double mixed_cutoff = 0x1p-22;
 
 // All hold for coordinates up to this [sigma]; beyond it the rounding of positions grows in proportion, and so does what is
 // allowed: such a deviation is divided by x / position_extent.
@@ -71,16 +73,10 @@ double rounding_allowance(const Configuration& configuration);
 // One line for messages.
 std::string describe(const Deviation& deviation);
 
-// The Lennard-Jones kernels of a table against the scalar reference: over all pairs, and over neighbour lists where a case allows
-// one.
-std::vector<Deviation> verify_lennard_jones(const kernels::KernelTable& table, const std::vector<PairCase>& cases);
-std::vector<Deviation> verify_lennard_jones_lists(const kernels::KernelTable& table, const std::vector<PairCase>& cases);
-// Those in mixed precision, but for cases in which a pair is at the cutoff.
-std::vector<Deviation> verify_lennard_jones_mixed(const kernels::KernelTable& table, const std::vector<PairCase>& cases);
 // The vector algebra of a table against loops in long double, at lengths that leave every remainder.
 std::vector<Deviation> verify_vector_algebra(const kernels::KernelTable& table);
-// These and those of hard_sphere_checks.hpp and probe_checks.hpp. Throws Error(bad_input) where the instruction set is not
-// available.
+// These, every pair form (Lennard-Jones on the given cases), state mixtures and hard spheres. Throws Error(bad_input) where the
+// instruction set is not available.
 std::vector<Deviation> verify_kernels(Isa isa, const std::vector<PairCase>& cases);
 
 }  // namespace lanescape

@@ -16,7 +16,8 @@ namespace {
 constexpr std::size_t probes_per_case = 12;
 
 bool fits_probe(const PairModel& model, const Box& box) {
-  const double cutoff = model.cutoff * *std::max_element(model.sigma.begin(), model.sigma.end());
+  constexpr double largest_diameter = 1.2;  // of form_cases()
+  const double cutoff = model.largest_cutoff() * (model.form->has_diameters ? largest_diameter : 1.0);
   return model.images == ImageRule::all || 2.0 * cutoff <= box.shortest();
 }
 
@@ -24,6 +25,7 @@ Configuration without(const Configuration& all, std::size_t particle) {
   Configuration rest = all;
   const auto at = static_cast<std::ptrdiff_t>(particle);
   rest.species.erase(rest.species.begin() + at);
+  if (!rest.diameters.empty()) rest.diameters.erase(rest.diameters.begin() + at);
   rest.positions.erase(rest.positions.begin() + 3 * at, rest.positions.begin() + 3 * at + 3);
   return rest;
 }
@@ -54,11 +56,12 @@ double wrongly_clear(const PairModel& model, const Configuration& configuration,
 
 }  // namespace
 
-std::vector<Deviation> verify_probes(const kernels::KernelTable& table, const std::vector<PairCase>& cases) {
-  Check energy(table, "lennard_jones_probe energy", tolerance::lj_sums),
-      gradient(table, "lennard_jones_probe gradient", tolerance::lj_gradient),
-      energy_bits(table, "lennard_jones_probe, lennard_jones_probe_energies: same energy", tolerance::exact),
-      clear(table, "probe_first_clear", tolerance::exact);
+std::vector<Deviation> verify_probes(const kernels::KernelTable& table, const std::vector<PairCase>& cases,
+                                     const std::string& form) {
+  Check energy(table, form + "_probe energy", tolerance::pair_sums),
+      gradient(table, form + "_probe gradient", tolerance::pair_gradient),
+      energy_bits(table, form + "_probe, " + form + "_probe_energies: same energy", tolerance::exact),
+      clear(table, "probe_first_clear (" + form + ")", tolerance::exact);
   for (const auto& [name, model, configuration] : cases) {
     if (!fits_probe(model, configuration.box)) continue;
     const double allowance = rounding_allowance(configuration);
@@ -67,8 +70,9 @@ std::vector<Deviation> verify_probes(const kernels::KernelTable& table, const st
     for (std::size_t i = 0; i < configuration.size(); i += stride) {
       const Configuration rest = without(configuration, i);
       const auto position = configuration.position(i);
-      const reference::Probe expected = probe_reference(model, rest, position, configuration.species[i]);
-      const ProbeField field(model, rest, configuration.species[i], table);
+      const double diameter = configuration.diameters.empty() ? 1.0 : configuration.diameters[i];
+      const reference::Probe expected = probe_reference(model, rest, position, configuration.species[i], diameter);
+      const ProbeField field(model, rest, configuration.species[i], table, diameter);
       const ProbeField::Sample sample = field.sample(position);
       energy.add(name, relative(sample.energy, expected.energy, expected.magnitude) / allowance);
       const double scale = *std::max_element(expected.gradient_magnitude.begin(), expected.gradient_magnitude.end());

@@ -14,6 +14,6 @@ reference::Evaluation evaluate_reference(const PairModel& model, const Configura
 
 // The scalar reference of a probe of one species in a fluid; all images count.
 reference::Probe probe_reference(const PairModel& model, const Configuration& fluid, const std::array<double, 3>& position,
-                                 int species);
+                                 int species, double diameter = 1.0);
 
 }  // namespace lanescape

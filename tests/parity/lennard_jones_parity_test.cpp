@@ -17,6 +17,7 @@
 #include "verification/cases.hpp"
 #include "verification/junit.hpp"
 #include "verification/kernel_checks.hpp"
+#include "verification/pair_checks.hpp"
 #include "verification/reference_bridge.hpp"
 
 namespace lanescape {
@@ -48,12 +49,12 @@ INSTANTIATE_TEST_SUITE_P(EveryIsa, LennardJonesParity, testing::all_isas(), test
 
 TEST_P(LennardJonesParity, KernelsAgreeWithTheReferenceOnEveryCase) {
   for (const PairCase& one : every_case())
-    for (const Deviation& deviation : verify_lennard_jones(kernel_table(GetParam()), {one}))
+    for (const Deviation& deviation : verify_all_pairs(kernel_table(GetParam()), {one}))
       EXPECT_TRUE(deviation.passed()) << one.name << ": " << describe(deviation);
 }
 
 TEST_P(LennardJonesParity, WorstDeviationsAreWithinTheDeclaredTolerances) {
-  for (const Deviation& deviation : verify_lennard_jones(kernel_table(GetParam()), every_case())) {
+  for (const Deviation& deviation : verify_all_pairs(kernel_table(GetParam()), every_case())) {
     RecordProperty(deviation.kernel, describe(deviation));
     EXPECT_TRUE(deviation.passed()) << describe(deviation);
   }
@@ -61,9 +62,9 @@ TEST_P(LennardJonesParity, WorstDeviationsAreWithinTheDeclaredTolerances) {
 
 TEST_P(LennardJonesParity, ListKernelsAgreeWithTheReferenceOnEveryCaseThatAllowsAList) {
   for (const PairCase& one : every_case())
-    for (const Deviation& deviation : verify_lennard_jones_lists(kernel_table(GetParam()), {one}))
+    for (const Deviation& deviation : verify_lists(kernel_table(GetParam()), {one}))
       EXPECT_TRUE(deviation.passed() || deviation.cases == 0) << one.name << ": " << describe(deviation);
-  for (const Deviation& deviation : verify_lennard_jones_lists(kernel_table(GetParam()), every_case())) {
+  for (const Deviation& deviation : verify_lists(kernel_table(GetParam()), every_case())) {
     RecordProperty(deviation.kernel, describe(deviation));
     EXPECT_TRUE(deviation.passed()) << describe(deviation);
     EXPECT_GT(deviation.cases, every_case().size() / 2);
@@ -72,9 +73,9 @@ TEST_P(LennardJonesParity, ListKernelsAgreeWithTheReferenceOnEveryCaseThatAllows
 
 TEST_P(LennardJonesParity, MixedPrecisionAgreesWithTheReferenceOnEveryCaseThatAllowsAListAndHasNoPairAtTheCutoff) {
   for (const PairCase& one : every_case())
-    for (const Deviation& deviation : verify_lennard_jones_mixed(kernel_table(GetParam()), {one}))
+    for (const Deviation& deviation : verify_mixed(kernel_table(GetParam()), {one}))
       EXPECT_TRUE(deviation.passed() || deviation.cases == 0) << one.name << ": " << describe(deviation);
-  for (const Deviation& deviation : verify_lennard_jones_mixed(kernel_table(GetParam()), every_case())) {
+  for (const Deviation& deviation : verify_mixed(kernel_table(GetParam()), every_case())) {
     RecordProperty(deviation.kernel, describe(deviation));
     EXPECT_TRUE(deviation.passed()) << describe(deviation);
     EXPECT_GT(deviation.cases, every_case().size() / 2);
@@ -88,7 +89,7 @@ TEST_P(LennardJonesParity, AForcedInstructionSetIsTheOneThatRuns) {
   EXPECT_EQ(forced.name, name);
   const std::size_t lanes = GetParam() == Isa::avx512 ? 8 : GetParam() == Isa::sse2 ? 2 : 4;
   EXPECT_EQ(forced.lanes, lanes);
-  for (const Deviation& deviation : verify_lennard_jones(forced, {every_case().front()})) EXPECT_EQ(deviation.isa, name);
+  for (const Deviation& deviation : verify_all_pairs(forced, {every_case().front()})) EXPECT_EQ(deviation.isa, name);
   // Code of its own, not that of another instruction set under its name.
   for (const Isa isa : available_isas())
     if (isa != GetParam()) {
@@ -208,7 +209,7 @@ void stress_with_wrong_gradient(const PairInput& in, double* gradient, PairOutpu
 
 std::vector<std::string> failed_checks(const KernelTable& table) {
   std::vector<std::string> failed;
-  for (const Deviation& deviation : verify_lennard_jones(table, small_cases()))
+  for (const Deviation& deviation : verify_all_pairs(table, small_cases()))
     if (!deviation.passed()) failed.push_back(deviation.kernel);
   return failed;
 }
@@ -245,13 +246,13 @@ TEST(LennardJonesChecks, SeeASingleBitBetweenTheKernels) {
   std::vector<PairCase> dense = small_cases();
   std::erase_if(dense, [](const PairCase& c) { return c.configuration.size() < 8; });
   std::vector<std::string> failed;
-  for (const Deviation& deviation : verify_lennard_jones(with(wrong), dense))
+  for (const Deviation& deviation : verify_all_pairs(with(wrong), dense))
     if (!deviation.passed()) failed.push_back(deviation.kernel);
   EXPECT_EQ(failed, std::vector<std::string>{"lennard_jones_energy, lennard_jones_gradient, lennard_jones_stress: same energy"});
 }
 
 TEST(LennardJonesChecks, DoNotPassWithoutASingleCase) {
-  for (const Deviation& deviation : verify_lennard_jones(kernel_table(available_isas().back()), {}))
+  for (const Deviation& deviation : verify_all_pairs(kernel_table(available_isas().back()), {}))
     EXPECT_FALSE(deviation.passed()) << deviation.kernel;
 }
 

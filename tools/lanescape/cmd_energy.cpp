@@ -101,10 +101,9 @@ struct EnergyState {
 };
 
 [[noreturn]] void refuse_hard_spheres(const Model& model) {
-  throw_bad_input(
-      fmt::format("energy: model {} is made of hard spheres: allowed are kob-andersen, lennard-jones, ucg and model "
-                  "files of kinds lennard-jones and ucg",
-                  mixture_of(model).name));
+  throw_bad_input(fmt::format(
+      "energy: model {} is made of hard spheres: allowed are models of pair potentials (kob-andersen, lennard-jones, ...) and ucg",
+      mixture_of(model).name));
 }
 
 Json run_energy(EnergyState& state, const Options& options) {

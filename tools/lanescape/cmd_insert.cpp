@@ -129,6 +129,8 @@ Json run_insert(InsertState& state, const Options& options, int& status) {
   state.common.check();
   const Isa isa = state.common.resolve_isa();
   const PairModel model = state.system.resolve_pair_model("insert");
+  if (model.form->has_diameters)
+    throw_bad_input(fmt::format("insert: model {} is not allowed: its particles have diameters of their own", model.name));
   if (state.system.precision) throw_bad_input("--precision is not allowed with insert: probes are in double precision");
   if (state.plot && state.common.out.empty() && state.common.resume.empty())
     throw_bad_input("--plot needs --out: the plots are files");

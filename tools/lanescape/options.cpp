@@ -1,8 +1,14 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <initializer_list>
 #include <iostream>
+#include <limits>
+#include <numeric>
+#include <sstream>
 #include <utility>
 
 #include "configuration/model_traits.hpp"
@@ -39,11 +45,15 @@ void CommonOptions::check() const {
 }
 
 void SystemOptions::add_to(Options& options) {
-  options.add("--model", model, "kob-andersen, lennard-jones, hard-sphere, hard-sphere-binary or ucg");
+  options.add("--model", model,
+              "kob-andersen, lennard-jones, wca, wahnstrom, polydisperse, mie, inverse-power, harmonic, hertzian, hard-sphere, "
+              "hard-sphere-binary "
+              "or ucg");
   options.add("--model-file", model_file, "model file (TOML) instead of --model; of kind ucg with --model ucg");
   options.add("--cutoff", cutoff, "cutoff of a soft model in units of sigma_ab; of ucg in sigma [2.5]");
   options.add("--images", images, "periodic images of a soft model: all within the cutoff, or the minimum image only [all]");
-  options.add("--truncation", truncation, "of a soft model: shifted, plain or tail [shifted]");
+  options.add("--truncation", truncation, "of a soft model: shifted, plain, tail, shifted-force or smooth [shifted]");
+  options.add("--composition", composition, "of a soft model's generated starts: fractions of the species, 0.65,0.35");
   options.add("--precision", precision, "of a soft model's pairs: double, or mixed: single with sums in double [double]");
 }
 
@@ -63,16 +73,36 @@ void refuse_options(std::initializer_list<std::pair<const char*, bool>> given, c
     if (is_given) throw_bad_input(fmt::format("{} is not allowed with model {}: {}", option, model.name, why));
 }
 
+std::vector<Species> with_fractions(std::vector<Species> species, const std::string& list) {
+  std::vector<double> fractions;
+  std::istringstream words(list);
+  for (std::string word; std::getline(words, word, ',');) {
+    char* end = nullptr;
+    fractions.push_back(std::strtod(word.c_str(), &end));
+    if (word.empty() || *end != '\0') fractions.back() = std::numeric_limits<double>::quiet_NaN();
+  }
+  const double sum = std::accumulate(fractions.begin(), fractions.end(), 0.0);
+  const bool in_range = std::all_of(fractions.begin(), fractions.end(), [](double f) { return f >= 0.0 && f <= 1.0; });
+  if (fractions.size() != species.size() || !in_range || std::abs(sum - 1.0) > 1e-9)
+    throw_bad_input(
+        fmt::format("--composition: {} is not allowed: {} numbers from 0 to 1 with the sum 1 are needed, separated by commas", list,
+                    species.size()));
+  for (std::size_t s = 0; s < species.size(); ++s) species[s].fraction = fractions[s];
+  return species;
+}
+
 }  // namespace
 
 Model SystemOptions::resolve() const {
   Model resolved = model_file.empty() ? named_model(model) : read_named(model_file, model);
+  constexpr const char* own_fractions = "a model file gives the fractions of its species";
   std::visit(
       Overloaded{
           [&](PairModel& soft) {
             if (cutoff) soft.cutoff = *cutoff;
             if (images) soft.images = parse_image_rule(*images);
             if (truncation) soft.truncation = parse_truncation(*truncation);
+            if (composition) soft.species = with_fractions(std::move(soft.species), *composition);
             soft.check();
             resolve_precision();
           },
@@ -80,6 +110,7 @@ Model SystemOptions::resolve() const {
             refuse_options({{"--images", images && parse_image_rule(*images) != ImageRule::all}}, states, "all images count");
             refuse_options({{"--truncation", truncation && parse_truncation(*truncation) != Truncation::shifted}}, states,
                            "its potentials are shifted");
+            refuse_options({{"--composition", composition.has_value()}}, states, own_fractions);
             refuse_options({{"--precision", resolve_precision() != Precision::double_precision}}, states, "double precision only");
             if (cutoff) states.cutoff = *cutoff;
             states.check();
@@ -88,6 +119,7 @@ Model SystemOptions::resolve() const {
             refuse_options(
                 {{"--cutoff", cutoff.has_value()}, {"--images", images.has_value()}, {"--truncation", truncation.has_value()}},
                 hard, "hard spheres have no cutoff, image rule or truncation");
+            refuse_options({{"--composition", composition.has_value()}}, hard, own_fractions);
             refuse_options({{"--precision", precision.has_value()}}, hard, "overlaps of hard spheres are decided exactly");
           }},
       resolved);
@@ -106,7 +138,7 @@ PairModel SystemOptions::resolve_pair_model(const char* subcommand) const {
   const Model resolved = resolve();
   const auto refuse = [&](const Mixture& model) -> PairModel {
     throw_bad_input(
-        fmt::format("{}: model {} is made of {}: allowed are kob-andersen, lennard-jones and model files of kind lennard-jones",
+        fmt::format("{}: model {} is made of {}: allowed are models of pair potentials, kob-andersen, lennard-jones and others",
                     subcommand, model.name, traits_of(resolved).particles));
   };
   return std::visit(

@@ -124,7 +124,7 @@ struct SystemOptions {
   std::string model = "kob-andersen";
   std::string model_file;
   std::optional<double> cutoff;
-  std::optional<std::string> images, truncation, precision;
+  std::optional<std::string> images, truncation, composition, precision;
 
   void add_to(Options& options);
   // Throws Error(bad_input) for options of soft models with hard spheres.

@@ -16,10 +16,11 @@ bool is_cubic(const Box& box) { return box.length[0] == box.length[1] && box.len
 }  // namespace
 
 AllPairsSums::AllPairsSums(const PairModel& model, const Box& box, const ParticleLayout& layout, const kernels::KernelTable& table)
-    : kernels_(&table.pair_kernels(model.form->kernel)), blocks_(layout.blocks()), scratch_(layout.dimension(), 0.0) {
+    : kernels_(&table.pair_kernels(model.kernel_form().kernel)), blocks_(layout.blocks()), scratch_(layout.dimension(), 0.0) {
+  const double scale = diameter_scale(model, layout);
   std::vector<ImageSearch> images;
   for (std::size_t k = 0; k < model.sigma.size(); ++k) {
-    const double cutoff = model.cutoff_of(k);
+    const double cutoff = scale * model.cutoff_of(k);
     images.push_back(image_search(box, cutoff, model.images));
     if (model.images == ImageRule::all)
       for (std::size_t axis = 0; axis < 3; ++axis)
@@ -27,7 +28,12 @@ AllPairsSums::AllPairsSums(const PairModel& model, const Box& box, const Particl
   }
   const bool lattice = std::find(images.begin(), images.end(), ImageSearch::lattice) != images.end();
   input_.unit = is_cubic(box) && !lattice ? LengthUnit::box : LengthUnit::sigma;
-  pairs_ = pair_parameters(model, input_.unit == LengthUnit::box ? box.length[0] : 1.0);
+  const double unit = input_.unit == LengthUnit::box ? box.length[0] : 1.0;
+  pairs_ = pair_parameters(model, unit);
+  if (model.form->has_diameters) {
+    diameters_ = layout.diameters();
+    for (double& diameter : diameters_) diameter /= unit;
+  }
   for (std::size_t k = 0; k < images.size(); ++k) pairs_[k].images = images[k];
   for (std::size_t axis = 0; axis < 3; ++axis) input_.box[axis] = box.length[axis];
   input_.slots = layout.slots();
@@ -41,6 +47,7 @@ kernels::PairInput AllPairsSums::input(const AlignedArray& positions) {
   in.scratch = scratch_.data();
   in.blocks = blocks_.data();
   in.pairs = pairs_.data();
+  in.diameters = diameters_.size() == 0 ? nullptr : diameters_.data();
   return in;
 }
 

@@ -8,9 +8,9 @@
 namespace lanescape {
 namespace {
 
-std::vector<double> cutoffs(const std::vector<kernels::PairParameters>& pairs) {
+std::vector<double> cutoffs(const std::vector<kernels::PairParameters>& pairs, double scale) {
   std::vector<double> cutoffs;
-  for (const auto& pair : pairs) cutoffs.push_back(std::sqrt(pair.cutoff_squared));
+  for (const auto& pair : pairs) cutoffs.push_back(scale * std::sqrt(pair.cutoff_squared));
   return cutoffs;
 }
 
@@ -18,12 +18,13 @@ std::vector<double> cutoffs(const std::vector<kernels::PairParameters>& pairs) {
 
 ListSums::ListSums(const PairModel& model, const Box& box, const ParticleLayout& layout, const kernels::KernelTable& table,
                    double skin, int threads, Precision precision)
-    : kernels_(&table.pair_kernels(model.form->kernel)),
+    : kernels_(&table.pair_kernels(model.kernel_form().kernel)),
       precision_(precision),
       pairs_(pair_parameters(model)),
-      list_(box, layout, cutoffs(pairs_), skin, table, threads,
+      list_(box, layout, cutoffs(pairs_, diameter_scale(model, layout)), skin, table, threads,
             precision == Precision::mixed ? NeighbourList::Coordinates::floating_and_fixed : NeighbourList::Coordinates::floating) {
   if (precision == Precision::mixed) single_pairs_ = single_pair_parameters(pairs_, list_.fixed_unit());
+  if (model.form->has_diameters) diameters_ = layout.diameters();
   for (std::size_t b = 0; b < layout.blocks().size(); ++b) {
     const std::size_t end = b + 1 < layout.blocks().size() ? layout.blocks()[b + 1].begin : layout.slots();
     for (std::size_t slot = layout.blocks()[b].begin + layout.blocks()[b].count; slot < end; ++slot) padding_.push_back(slot);
@@ -33,6 +34,10 @@ ListSums::ListSums(const PairModel& model, const Box& box, const ParticleLayout&
 template <class Evaluate>
 void ListSums::for_each_block(const AlignedArray& positions, Evaluate evaluate) {
   list_.update(positions);
+  if (diameters_.size() > 0 && diameters_at_ != list_.rebuilds()) {
+    list_.set_values(diameters_, 1);
+    diameters_at_ = list_.rebuilds();
+  }
   sums_.assign(list_.block_count(), {});
   const std::size_t species = list_.species();
   for_each_part(list_.parts(), [&](int part) {

@@ -1,16 +1,30 @@
 #include "interaction/pair/pair_parameters.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "core/error.hpp"
+
 namespace lanescape {
+
+double diameter_scale(const PairModel& model, const ParticleLayout& layout) {
+  if (!model.form->has_diameters) return 1.0;
+  const AlignedArray& diameters = layout.diameters();
+  if (layout.size() > 0 && diameters.size() == 0)
+    throw_bad_input(fmt::format("model {} needs a diameter of each particle, column diameter:R:1 of a file", model.name));
+  return diameters.size() == 0 ? 1.0 : *std::max_element(diameters.begin(), diameters.end());
+}
 
 std::vector<kernels::PairParameters> pair_parameters(const PairModel& model, double unit) {
   std::vector<kernels::PairParameters> pairs;
   for (std::size_t ab = 0; ab < model.sigma.size(); ++ab) {
     const double cutoff = model.cutoff_of(ab);
     kernels::PairParameters pair{cutoff * cutoff / (unit * unit), {}, kernels::ImageSearch::nearest};
-    model.form->coefficients(model.numbers(ab), model.correction(ab), unit,
-                             std::span<double, kernels::pair_coefficients>(pair.coefficient));
+    PairNumbers numbers = model.numbers(ab);
+    const PairCorrection correction = model.correction(numbers);
+    numbers.form = model.kernel_numbers();
+    model.kernel_form().coefficients(numbers, correction, unit, std::span<double, kernels::pair_coefficients>(pair.coefficient));
     pairs.push_back(pair);
   }
   return pairs;

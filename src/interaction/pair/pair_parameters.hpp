@@ -3,9 +3,14 @@
 #include <vector>
 
 #include "configuration/pair_model.hpp"
+#include "configuration/particle_layout.hpp"
 #include "views.hpp"
 
 namespace lanescape {
+
+// The largest diameter of particles that have one, by which cutoffs grow; 1 for a form without diameters. Throws Error(bad_input)
+// where the form needs diameters and the layout has none.
+double diameter_scale(const PairModel& model, const ParticleLayout& layout);
 
 // Each species pair's potential as the kernels take it, species x species; lengths in a unit of so many sigma, the nearest image
 // only.

@@ -41,7 +41,7 @@ class AllPairsSums final : public PairSums {
   const kernels::PairKernels* kernels_;
   std::vector<kernels::SpeciesBlock> blocks_;
   std::vector<kernels::PairParameters> pairs_;
-  AlignedArray scratch_;
+  AlignedArray scratch_, diameters_;  // diameters in the unit of pairs_
   kernels::PairInput input_{};
 };
 
@@ -72,7 +72,9 @@ class ListSums final : public PairSums {
   std::vector<kernels::PairParameters> pairs_;
   std::vector<kernels::SinglePairParameters> single_pairs_;  // of mixed precision, else none
   NeighbourList list_;
-  std::vector<std::size_t> padding_;       // slots without a particle
+  AlignedArray diameters_;            // per slot, where the form has them
+  std::uint64_t diameters_at_ = 0;    // the rebuild after which the list was given them
+  std::vector<std::size_t> padding_;  // slots without a particle
   std::vector<kernels::PairOutput> sums_;  // of each block
 };
 

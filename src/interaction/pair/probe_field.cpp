@@ -13,42 +13,66 @@ namespace lanescape {
 namespace {
 
 // That of a particle's own images and its own long-range correction.
-double energy_alone(const PairModel& model, const Box& box, int species, const kernels::KernelTable& table) {
-  const Configuration alone{box, {species}, {0.0, 0.0, 0.0}};
-  const ParticleLayout layout(alone.species, model.species.size());
+double energy_alone(const PairModel& model, const Box& box, int species, double diameter, const kernels::KernelTable& table) {
+  Configuration alone{box, {species}, {0.0, 0.0, 0.0}};
+  if (model.form->has_diameters) alone.diameters = {diameter};
+  const ParticleLayout layout = ParticleLayout::in_users_order(alone, model.species.size());
   return PairInteraction(model, box, layout, table).energy(layout.to_slots(alone.positions));
 }
 
 }  // namespace
 
-ProbeField::ProbeField(const PairModel& model, const Configuration& fluid, int species, const kernels::KernelTable& table)
-    : table_(&table), model_(model), kernels_(&table.pair_kernels(model.form->kernel)), box_(fluid.box), species_(species) {
-  check_cutoff(model, box_);
+ProbeField::ProbeField(const PairModel& model, const Configuration& fluid, int species, const kernels::KernelTable& table,
+                       double diameter)
+    : table_(&table),
+      model_(model),
+      kernels_(&table.pair_kernels(model.kernel_form().kernel)),
+      box_(fluid.box),
+      species_(species),
+      diameter_(diameter),
+      smallest_diameter_(diameter),
+      largest_diameter_(diameter) {
+  for (const double d : fluid.diameters) {
+    smallest_diameter_ = std::min(smallest_diameter_, d);
+    largest_diameter_ = std::max(largest_diameter_, d);
+  }
+  const double scale = model.form->has_diameters ? largest_diameter_ : 1.0;
+  check_cutoff(model, box_, scale);
   const std::size_t count = model.species.size();
   if (species < 0 || static_cast<std::size_t>(species) >= count)
     throw_bad_input(fmt::format("species {} of an inserted particle is not allowed: the model has {}", species, count));
-  const std::vector<kernels::PairParameters> all = pair_parameters(model);
-  std::vector<std::vector<Point>> points(count);
-  for (std::size_t i = 0; i < fluid.size(); ++i) points[static_cast<std::size_t>(fluid.species[i])].push_back(fluid.position(i));
-  for (std::size_t b = 0; b < count; ++b) {
-    const std::size_t ab = model.pair(static_cast<std::size_t>(species), b);
-    const double cutoff = model.cutoff_of(ab);
-    largest_cutoff_ = std::max(largest_cutoff_, cutoff);
-    largest_sigma_ = std::max(largest_sigma_, model.sigma[ab]);
-    pairs_.push_back(all[ab]);
-    cells_.emplace_back(box_, cutoff, points[b].size());
-    cells_.back().assign(points[b]);
-    tail_.push_back(model.truncation == Truncation::tail
-                        ? 2.0 * long_range(model, static_cast<std::size_t>(species), b, box_.volume()).energy
-                        : 0.0);
-  }
+  put_fluid(fluid, scale);
   if (model.images == ImageRule::minimum && 2.0 * largest_cutoff_ > box_.shortest())
     throw_bad_input(
         fmt::format("insertion under the minimum-image rule is not allowed in a box of shortest edge {}: at least twice the "
                     "cutoff, {}, is needed",
                     box_.shortest(), 2.0 * largest_cutoff_));
-  own_ = energy_alone(model, box_, species, table);
+  own_ = energy_alone(model, box_, species, diameter, table);
   refresh();
+}
+
+void ProbeField::put_fluid(const Configuration& fluid, double scale) {
+  const std::size_t count = model_.species.size();
+  const std::vector<kernels::PairParameters> all = pair_parameters(model_);
+  std::vector<std::vector<Point>> points(count);
+  std::vector<std::vector<double>> diameters(count);
+  for (std::size_t i = 0; i < fluid.size(); ++i) {
+    points[static_cast<std::size_t>(fluid.species[i])].push_back(fluid.position(i));
+    if (!fluid.diameters.empty()) diameters[static_cast<std::size_t>(fluid.species[i])].push_back(fluid.diameters[i]);
+  }
+  for (std::size_t b = 0; b < count; ++b) {
+    const std::size_t ab = model_.pair(static_cast<std::size_t>(species_), b);
+    const double cutoff = scale * model_.cutoff_of(ab);
+    largest_cutoff_ = std::max(largest_cutoff_, cutoff);
+    largest_sigma_ = std::max(largest_sigma_, model_.sigma[ab]);
+    pairs_.push_back(all[ab]);
+    cells_.emplace_back(box_, cutoff, points[b].size());
+    cells_.back().assign(points[b], diameters[b]);
+    tail_.push_back(model_.truncation == Truncation::tail
+                        ? 2.0 * long_range(model_, static_cast<std::size_t>(species_), b, box_.volume()).energy
+                        : 0.0);
+    reaches_.push_back(scale * std::sqrt(all[ab].cutoff_squared));
+  }
 }
 
 void ProbeField::refresh() {
@@ -57,7 +81,7 @@ void ProbeField::refresh() {
   for (std::size_t b = 0; b < cells_.size(); ++b) {
     views_.push_back(cells_[b].view());
     views_.back().pair = pairs_[b];
-    views_.back().reach = std::sqrt(pairs_[b].cutoff_squared);
+    views_.back().reach = reaches_[b];
     constant_ += tail_[b] * static_cast<double>(cells_[b].size());
   }
 }
@@ -71,7 +95,7 @@ ProbeField::Point ProbeField::home(const Point& position) const {
 ProbeField::Sample ProbeField::sample(const Point& position) const {
   kernels::ProbeOutput out;
   const Point at = home(position);
-  kernels_->probe({views_.data(), views_.size(), 0.0}, at.data(), out);
+  kernels_->probe({views_.data(), views_.size(), diameter_}, at.data(), out);
   return {out.energy + constant_, {out.gradient[0], out.gradient[1], out.gradient[2]}};
 }
 
@@ -84,7 +108,7 @@ double ProbeField::energy(const Point& position) const {
 void ProbeField::energies(std::span<const double> positions, std::span<double> out) const {
   std::vector<double> wrapped(positions.begin(), positions.end());
   for (std::size_t k = 0; k < wrapped.size(); ++k) wrapped[k] = box_.wrapped(k % 3, wrapped[k]);
-  kernels_->probe_energies({views_.data(), views_.size(), 0.0}, wrapped.data(), out.size(), out.data());
+  kernels_->probe_energies({views_.data(), views_.size(), diameter_}, wrapped.data(), out.size(), out.data());
   for (double& energy : out) energy += constant_;
 }
 
@@ -97,11 +121,11 @@ std::vector<double> ProbeField::clearances(double energy) const {
 }
 
 std::size_t ProbeField::first_clear(std::span<const double> clearances, std::span<const double> positions) const {
-  return table_->probe_first_clear({views_.data(), views_.size(), 0.0}, clearances.data(), positions.data(), positions.size() / 3);
+  return table_->probe_first_clear({views_.data(), views_.size(), diameter_}, clearances.data(), positions.data(), positions.size() / 3);
 }
 
 void ProbeField::insert(const Point& position, int species) {
-  cells_[static_cast<std::size_t>(species)].insert(position);
+  cells_[static_cast<std::size_t>(species)].insert(position, diameter_);
   refresh();
 }
 

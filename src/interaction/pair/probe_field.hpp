@@ -25,7 +25,9 @@ class ProbeField {
 
   // `species`: of the probe. Throws what check_cutoff() throws, and Error(bad_input) for a species that the model does not have and
   // for the minimum-image rule in a box whose shortest edge is below twice the cutoff, where a probe would feel a jump. O(N).
-  ProbeField(const PairModel& model, const Configuration& fluid, int species, const kernels::KernelTable& table);
+  // `diameter`: of the probe and of what is put in, where the model's particles have diameters [sigma].
+  ProbeField(const PairModel& model, const Configuration& fluid, int species, const kernels::KernelTable& table,
+             double diameter = 1.0);
 
   Sample sample(const Point& position) const;
   double energy(const Point& position) const;
@@ -51,6 +53,7 @@ class ProbeField {
   double constant() const { return constant_; }
 
  private:
+  void put_fluid(const Configuration& fluid, double scale);
   // Cells and pair, as the kernels take them; made anew at every change.
   void refresh();
   Point home(const Point& position) const;
@@ -60,10 +63,13 @@ class ProbeField {
   const kernels::PairKernels* kernels_;
   Box box_;
   int species_;
+  double diameter_;
+  double smallest_diameter_ = 0.0, largest_diameter_ = 0.0;  // of fluid and probe
   double largest_cutoff_ = 0.0, largest_sigma_ = 0.0;
   std::vector<ProbeCells> cells_;  // by species
   std::vector<kernels::PairParameters> pairs_;
-  std::vector<double> tail_;  // what the energy rises by for each particle there is of a species
+  std::vector<double> reaches_;  // of pairs_ [sigma]
+  std::vector<double> tail_;     // what the energy rises by for each particle there is of a species
   double own_ = 0.0, constant_ = 0.0;
   std::vector<kernels::ProbeSpecies> views_;
 };

@@ -90,7 +90,8 @@ TEST(NamedModel, AnUnknownNameIsRefusedWithTheNamesThereAre) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::bad_input);
     EXPECT_STREQ(error.what(),
-                 "unknown model 'soft-sphere': allowed are kob-andersen, lennard-jones, hard-sphere, hard-sphere-binary, ucg");
+                 "unknown model 'soft-sphere': allowed are kob-andersen, lennard-jones, wca, wahnstrom, polydisperse, mie, "
+                 "inverse-power, harmonic, hertzian, hard-sphere, hard-sphere-binary, ucg");
   }
 }
 

@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "interaction/pair/closest_pair.hpp"
-#include "interaction/pair/pair_interaction.hpp"
+#include "interaction/pair/separations.hpp"
 
 namespace lanescape {
 
@@ -13,9 +13,14 @@ void check_separations(const Configuration& configuration, const PairModel& mode
   for (std::size_t k = 0; k < configuration.positions.size(); ++k)
     if (!std::isfinite(configuration.positions[k]))
       throw_bad_input(fmt::format("particle {}: coordinate {} is not finite", k / 3, configuration.positions[k]));
-  constexpr double allowed = 0.3;  // [sigma_ab]
-  const double reach = allowed * *std::max_element(model.sigma.begin(), model.sigma.end());
+  const double allowed = model.form->smallest_separation;  // [sigma_ab]
+  if (allowed == 0.0) return;
+  const auto& diameters = configuration.diameters;
+  const bool own_diameters = model.form->has_diameters && !diameters.empty();
+  const auto& sizes = own_diameters ? diameters : model.sigma;
+  const double reach = allowed * *std::max_element(sizes.begin(), sizes.end());
   const ClosePair closest = closest_pair(configuration, reach, [&](std::size_t i, std::size_t j) {
+    if (own_diameters) return 0.5 * (diameters[i] + diameters[j]);
     const auto& species = configuration.species;
     return model.sigma[model.pair(static_cast<std::size_t>(species[i]), static_cast<std::size_t>(species[j]))];
   });

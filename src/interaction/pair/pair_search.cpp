@@ -1,0 +1,58 @@
+#include "interaction/pair/pair_search.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+
+namespace lanescape {
+
+const char* to_string(Precision precision) { return precision == Precision::mixed ? "mixed" : "double"; }
+
+Precision parse_precision(std::string_view word) {
+  for (const Precision precision : {Precision::double_precision, Precision::mixed})
+    if (word == to_string(precision)) return precision;
+  throw_bad_input(fmt::format("precision '{}' is not allowed: double or mixed", word));
+}
+
+bool fits_list(const PairModel& model, const Box& box, double skin, double scale) {
+  if (model.images == ImageRule::all) return true;
+  const double cutoff = scale * model.largest_cutoff();
+  return 2.0 * (cutoff + skin) <= box.shortest();
+}
+
+namespace {
+
+void check_list(const PairModel& model, const Box& box, double scale, Precision precision, double skin) {
+  if (fits_list(model, box, skin, scale)) return;
+  throw_bad_input(
+      fmt::format("the minimum-image rule has no neighbour list{} in a box of shortest edge {}: at least twice the "
+                  "cutoff and the skin is needed",
+                  precision == Precision::mixed ? ", which mixed precision needs," : "", box.shortest()));
+}
+
+}  // namespace
+
+void check_precision(const PairModel& model, const Box& box, Precision precision, double skin) {
+  if (precision == Precision::mixed) check_list(model, box, 1.0, precision, skin);
+}
+
+bool takes_list(const PairModel& model, const Box& box, double scale, std::size_t particles, const PairSearchOptions& options) {
+  if (options.precision == Precision::mixed && options.search == PairSearch::all_pairs)
+    throw_bad_input("mixed precision needs a neighbour list: over all pairs there is double precision only");
+  switch (options.search) {
+    case PairSearch::all_pairs:
+      return false;
+    case PairSearch::list:
+      check_list(model, box, scale, options.precision, options.skin);
+      return true;
+    case PairSearch::automatic:
+      break;
+  }
+  if (options.precision == Precision::mixed) {
+    check_list(model, box, scale, options.precision, options.skin);
+    return true;
+  }
+  return particles >= list_crossover && fits_list(model, box, options.skin, scale);
+}
+
+}  // namespace lanescape
