@@ -2,7 +2,7 @@
 
 #include "isa.hpp"
 #include "simd/simd.hpp"
-#include "views.hpp"
+#include "views/grid.hpp"
 
 // Which cells of a grid a sphere reaches, column by column: how far along z it reaches into a column comes from one square root for
 // a vector of columns.

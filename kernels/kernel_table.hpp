@@ -1,7 +1,13 @@
 #pragma once
 
 #include "pair_kernels.hpp"
-#include "views.hpp"
+#include "views/flight.hpp"
+#include "views/grid.hpp"
+#include "views/layout.hpp"
+#include "views/pair.hpp"
+#include "views/probe.hpp"
+#include "views/sphere.hpp"
+#include "views/state.hpp"
 
 namespace lanescape::kernels {
 

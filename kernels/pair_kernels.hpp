@@ -1,7 +1,8 @@
 #pragma once
 
 #include "pair_forms.hpp"
-#include "views.hpp"
+#include "views/pair.hpp"
+#include "views/probe.hpp"
 
 namespace lanescape::kernels {
 

@@ -4,7 +4,7 @@
 
 #include "isa.hpp"
 #include "simd/simd.hpp"
-#include "views.hpp"
+#include "views/pair.hpp"
 
 // What all loops over pairs share: one vector of pairs at a time.
 namespace lanescape::kernels::LANESCAPE_ISA {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "pair_forms.hpp"
-#include "views.hpp"
+#include "views/pair.hpp"
 
 namespace lanescape {
 

@@ -6,7 +6,7 @@
 
 #include "configuration/configuration.hpp"
 #include "core/aligned_array.hpp"
-#include "views.hpp"
+#include "views/layout.hpp"
 
 namespace lanescape {
 

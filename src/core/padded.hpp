@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "views.hpp"
+#include "views/layout.hpp"
 
 namespace lanescape {
 

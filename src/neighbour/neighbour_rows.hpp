@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/padded.hpp"
-#include "views.hpp"
+#include "views/pair.hpp"
 
 namespace lanescape {
 

@@ -8,7 +8,8 @@
 #include "configuration/particle_layout.hpp"
 #include "core/aligned_array.hpp"
 #include "core/box.hpp"
-#include "views.hpp"
+#include "views/grid.hpp"
+#include "views/pair.hpp"
 
 namespace lanescape {
 

@@ -7,7 +7,7 @@
 
 #include "core/aligned_array.hpp"
 #include "core/box.hpp"
-#include "views.hpp"
+#include "views/probe.hpp"
 
 namespace lanescape {
 

@@ -2,7 +2,7 @@
 
 #include "configuration/pair_model.hpp"
 #include "core/box.hpp"
-#include "views.hpp"
+#include "views/pair.hpp"
 
 namespace lanescape {
 

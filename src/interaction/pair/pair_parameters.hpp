@@ -4,7 +4,7 @@
 
 #include "configuration/pair_model.hpp"
 #include "configuration/particle_layout.hpp"
-#include "views.hpp"
+#include "views/pair.hpp"
 
 namespace lanescape {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/aligned_array.hpp"
-#include "views.hpp"
+#include "views/state.hpp"
 
 namespace lanescape {
 
