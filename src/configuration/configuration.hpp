@@ -22,7 +22,7 @@ struct Configuration {
 
   std::size_t size() const { return species.size(); }
   Point position(std::size_t i) const { return point_at(positions.data(), i); }
-  // Every particle into the box.
+  // Moves each particle into the box.
   void wrap() {
     for (std::size_t k = 0; k < positions.size(); ++k) positions[k] = box.wrapped(k % 3, positions[k]);
   }

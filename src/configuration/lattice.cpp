@@ -20,7 +20,7 @@ constexpr double max_density = 100.0;
 constexpr double max_packing_fraction = 0.74;  // pi/(3 sqrt 2) = 0.7405 is close packing
 constexpr double rounding_margin = 1e-12;
 
-// Fisher and Yates, from the end.
+// The Fisher-Yates shuffle, from the end.
 template <class T>
 void shuffle(std::vector<T>& items, const CounterRandom& random) {
   for (std::size_t i = items.size(); i > 1; --i)
@@ -75,7 +75,7 @@ struct Lattice {
   }
 };
 
-// Which sphere is where; its box is still open.
+// Spheres on lattice sites; the edge of the box is not yet fixed.
 struct Packing {
   Lattice lattice;
   std::vector<int> species;   // of each particle
@@ -84,7 +84,7 @@ struct Packing {
 
   Packing(const HardSphereModel& model, std::size_t particles, Arrangement arrangement, std::uint64_t seed)
       : lattice(particles, seed), species(species_in_proportion(model, particles)) {
-    // By species, so that the box does not depend on the order of particles.
+    // Summed by species, so that the box does not depend on the order of particles.
     for (std::size_t s = 0; s < model.species.size(); ++s)
       volume += static_cast<double>(std::count(species.begin(), species.end(), static_cast<int>(s))) * std::numbers::pi / 6.0 *
                 std::pow(model.diameters[s], 3);
@@ -123,8 +123,8 @@ std::vector<Offset> offsets_within(std::size_t cells, double reach) {
   return offsets;
 }
 
-// The least r_ij / s_ij over pairs of spheres and their images, in half edges per sigma. Each pair is met from its larger sphere,
-// so that distant sites are looked at from spheres large enough to reach them only: O(N) for like sizes.
+// The least r_ij / s_ij over pairs of spheres and their images, in half edges per sigma. Each pair is visited from its larger
+// sphere, so that only spheres large enough to reach a distant site visit it: O(N) for similar sizes.
 double least_distance_ratio(const Packing& packing) {
   const std::size_t period = 2 * packing.lattice.cells, n = packing.radii.size();
   const auto place = [&](const std::array<std::size_t, 3>& at) { return (at[2] * period + at[1]) * period + at[0]; };
@@ -153,7 +153,7 @@ double least_distance_ratio(const Packing& packing) {
   }
 }
 
-// At which the closest two spheres touch.
+// The packing fraction at which the closest two spheres touch.
 double largest_packing_fraction(const Packing& packing) {
   const double edge = 2.0 * static_cast<double>(packing.lattice.cells) / least_distance_ratio(packing);
   return std::min(max_packing_fraction, packing.volume / (edge * edge * edge) * (1.0 - rounding_margin));
@@ -195,7 +195,8 @@ Configuration hard_sphere_start(const HardSphereModel& model, std::size_t partic
   Packing packing(model, particles, arrangement, seed);
   if (const double largest = largest_packing_fraction(packing); packing_fraction > largest)
     throw_bad_input(fmt::format("packing fraction {} is beyond what this arrangement on an fcc lattice can reach ({:.6f})",
-                                packing_fraction, 1e-6 * std::floor(1e6 * largest)));  // rounded down: what is named is allowed
+                                packing_fraction,
+                                1e-6 * std::floor(1e6 * largest)));  // rounded down: the value in the message is allowed
   const double length = std::cbrt(packing.volume / packing_fraction);
   return {Box{{length, length, length}}, std::move(packing.species), packing.lattice.positions(length), std::move(packing.radii)};
 }

@@ -12,17 +12,17 @@ struct Species {
   double fraction = 1.0;  // of the particles, for generated starts; floor(N fraction) each, the first species takes the rest
 };
 
-// What soft and hard models have in common.
+// The part that all kinds of models share.
 struct Mixture {
   std::string name;
   std::vector<Species> species;
 
-  // Index of a species by its name; throws Error(bad_input) listing the names there are.
+  // Index of a species by its name; throws Error(bad_input) listing the known names.
   int find_species(std::string_view symbol) const;
   bool has_equal_masses() const;
   // Of particles of these species.
   std::vector<double> masses_of(const std::vector<int>& species_of_particles) const;
-  // Throws Error(bad_input) unless there are species, each with a name of its own, a mass above 0 and a fraction from 0 to 1.
+  // Throws Error(bad_input) unless there are species, each with a unique name, a mass above 0 and a fraction from 0 to 1.
   void check_species() const;
 };
 

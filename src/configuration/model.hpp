@@ -9,7 +9,7 @@
 
 namespace lanescape {
 
-// What a name or a model file stands for.
+// The model behind a name or a model file.
 using Model = std::variant<PairModel, HardSphereModel, StateMixtureModel>;
 
 // The model of a name; any other throws Error(bad_input) naming all there are.

@@ -16,7 +16,7 @@ std::vector<std::size_t> as_given(std::size_t n) {
   return particles;
 }
 
-// By columns of the box along z, about three particles wide, and along each.
+// Sorted by columns of the box along z, about three particles wide, and by z within each column.
 std::vector<std::size_t> by_place(const Configuration& configuration) {
   const std::size_t n = configuration.size();
   const double width = std::cbrt(3.0 * configuration.box.volume() / static_cast<double>(n));

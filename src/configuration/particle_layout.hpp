@@ -11,14 +11,14 @@
 namespace lanescape {
 
 // The library's own order of particles: species in blocks, each padded to whole vectors, coordinates as three arrays of
-// `slots` doubles in one AlignedArray (all x, all y, all z). Padding slots hold zeros. Everything public is in the user's
-// order; this is the one place that translates.
+// `slots` doubles in one AlignedArray (all x, all y, all z). Padding slots hold zeros. Public data are in the user's
+// order; only this class translates.
 class ParticleLayout {
  public:
-  // Within a species in the user's order.
+  // Keeps the user's order within a species.
   ParticleLayout(const std::vector<int>& species, std::size_t species_count);
-  // Of large systems (from `sorted_from` particles on) within a species by where in the box they are, as neighbour lists sort their
-  // points: what is near in space is then near in memory, until particles have diffused away.
+  // Sorts large systems (`sorted_from` particles or more) by position within a species, as neighbour lists sort their
+  // points: particles near in space are then near in memory, until they diffuse away.
   static ParticleLayout in_space_order(const Configuration& configuration, std::size_t species_count);
   static constexpr std::size_t sorted_from = 2000;
   // Within a species in the user's order, whatever the size.
@@ -32,7 +32,7 @@ class ParticleLayout {
   // One per slot, zero for padding; empty where the configuration has none [sigma].
   const AlignedArray& diameters() const { return diameters_; }
 
-  // From 3N interleaved user coordinates, and back.
+  // Convert 3N interleaved user coordinates to slots, and back.
   AlignedArray to_slots(std::span<const double> interleaved) const;
   std::vector<double> to_user(const AlignedArray& coordinates) const;
   // One value per slot, from one per particle in the user's order; padding slots get `padding`.

@@ -132,7 +132,7 @@ StateMixtureModel liquid_vapour() {
   StateMixtureModel model;
   model.name = "ucg";
   model.species = {{"Ar", 1.0, 1.0}};
-  // Liquid sites have some 9 neighbours within 1.5 sigma, those of the vapour hardly any.
+  // A liquid site has about 9 neighbours within 1.5 sigma, a vapour site hardly any.
   model.states = {{{1.5, 0.15, 2.5}, {{4.0, 1.5}}, {0.0, 0.0}}};
   model.filter = {1.0};
   using LennardJones = StateMixtureModel::LennardJones;

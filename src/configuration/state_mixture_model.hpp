@@ -17,11 +17,12 @@ struct StateMixtureModel : Mixture {
   struct Switching {
     double threshold = 1.5, width = 0.15, cutoff = 2.5;
   };
-  // State a if denser than the a-th threshold and than none before: p_0 = (1 + tanh((rho - threshold) / width)) / 2 and so on.
+  // A site is in state a if its density is above the a-th threshold and below all before: p_0 = (1 + tanh((rho - threshold) /
+  // width)) / 2 and so on.
   struct Step {
     double threshold, width;
   };
-  // A species: one state more than it has steps.
+  // The states of a species: one more than it has steps.
   struct States {
     Switching switching;
     std::vector<Step> steps;
@@ -51,9 +52,10 @@ struct StateMixtureModel : Mixture {
   std::size_t potential_at(std::size_t s, std::size_t a, std::size_t t, std::size_t b) const {
     return (pair(s, t) * most_states() + a) * most_states() + b;
   }
-  // What two sites may not come much nearer to than: the smallest sigma, or first distance of a table, of their states.
+  // The size of a pair, a distance that two sites hardly go below: the smallest sigma, or first distance of a table, of their
+  // states.
   double size_of(std::size_t s, std::size_t t) const;
-  // How far two sites of these species see each other [sigma].
+  // The distance up to which two sites of these species interact [sigma].
   double reach(std::size_t s, std::size_t t) const;
   // Where a potential ends: a table at its last distance, Lennard-Jones at `cutoff` [sigma].
   static double end_of(const Potential& potential, double cutoff);
@@ -62,8 +64,8 @@ struct StateMixtureModel : Mixture {
   void check() const;
 };
 
-// One component of two states, dense and dilute, whose potentials differ: written Ar. The liquid, more attractive than the vapour,
-// is where its state is.
+// One component of two states, dense and dilute, whose potentials differ: written Ar. The dense state attracts more
+// strongly.
 StateMixtureModel liquid_vapour();
 
 }  // namespace lanescape

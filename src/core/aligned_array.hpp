@@ -10,8 +10,8 @@
 
 namespace lanescape {
 
-// Allocates on cache-line boundaries, as the kernels demand (kernels::array_alignment). Large arrays are put on large pages where
-// the system has them: the translation of addresses otherwise slows a step of 32,000 particles or more by a sixth.
+// Allocates on cache-line boundaries, as the kernels require (kernels::array_alignment). Large arrays are put on large pages where
+// the system has them: otherwise address translation slows a step of 32,000 particles or more by a sixth.
 template <class T>
 struct AlignedAllocator {
   using value_type = T;
@@ -24,7 +24,7 @@ struct AlignedAllocator {
   T* allocate(std::size_t n) {
     void* memory = ::operator new(n * sizeof(T), alignment(n));
 #ifdef __linux__
-    if (is_large(n)) ::madvise(memory, n * sizeof(T), MADV_HUGEPAGE);  // advice: nothing is lost where it is not taken
+    if (is_large(n)) ::madvise(memory, n * sizeof(T), MADV_HUGEPAGE);  // advice: the system may ignore it
 #endif
     return static_cast<T*>(memory);
   }

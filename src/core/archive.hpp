@@ -9,8 +9,8 @@
 
 namespace lanescape {
 
-// What a state is written to and read from. Each state has one member `void exchange(Archive&)` that names its fields once;
-// the archive decides which way the data go. Doubles keep every bit.
+// A state is written to an archive and read from it. Each state has one member `void exchange(Archive&)` that names its fields
+// once; the archive knows the direction. Doubles keep every bit.
 class Archive {
  public:
   virtual ~Archive() = default;

@@ -9,7 +9,7 @@
 
 namespace lanescape {
 
-// A time series of bounded size: rows every `stride` steps; when `capacity` rows are full every second one is dropped and the
+// A time series of bounded size: rows every `stride` steps; when all `capacity` rows are used, every second one is dropped and the
 // stride doubles. A run of 10^9 steps needs no more memory than one of 10^4.
 class DecimatedTrace {
  public:
@@ -20,7 +20,7 @@ class DecimatedTrace {
   void add(std::initializer_list<double> row) {
     values_.insert(values_.end(), row);
     if (rows() < capacity_) return;
-    // Of steps 1, 2, 3, ... the even ones stay: multiples of the new stride.
+    // The even ones of rows 1, 2, 3, ... stay: multiples of the new stride.
     std::size_t kept = 0;
     for (std::size_t r = 1; r < rows(); r += 2, ++kept)
       for (std::size_t c = 0; c < columns_; ++c) values_[kept * columns_ + c] = values_[r * columns_ + c];

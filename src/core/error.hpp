@@ -12,7 +12,7 @@ enum class ErrorCode : int {
   internal = 3,          // a defect of the library, or no memory
 };
 
-// Thrown by the library wherever it cannot go on. The message is one line that says what, where and what is allowed.
+// Thrown wherever the library cannot continue. The message is one line that says what, where and what is allowed.
 class Error : public std::runtime_error {
  public:
   Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}

@@ -5,10 +5,10 @@
 
 namespace lanescape {
 
-// body(part) for every part below `parts`, on that many threads. What a body throws is thrown again once all have ended.
+// Calls body(part) for each part below `parts`, on that many threads. An exception is rethrown once all threads have ended.
 void run_on_threads(int parts, const std::function<void(int)>& body);
 
-// The same; one part runs without any OpenMP construct. Cut work so that no result depends on the number of parts.
+// Does the same, but runs a single part without OpenMP. Divide work so that no result depends on the number of parts.
 template <class Body>
 void for_each_part(int parts, const Body& body) {
   if (parts <= 1)

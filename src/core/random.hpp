@@ -18,13 +18,13 @@ enum class RandomStream : std::uint32_t {
 };
 
 // Counter-based random numbers (Philox4x32-10, Salmon et al., SC 2011, doi 10.1145/2063384.2063405): each is a function of
-// (seed, stream, step, particle, draw), so that no state is kept and no order of calls or number of threads matters. The
-// members draw from the same block at the same place: a stream uses one of them, or tells them apart by `draw` < 2^24.
+// (seed, stream, step, particle, draw), so there is no state, and neither the order of calls nor the number of threads matters. All
+// members read the same block for the same arguments: a stream uses one of them, or different values of `draw` < 2^24.
 class CounterRandom {
  public:
   CounterRandom(std::uint64_t seed, RandomStream stream) : seed_(seed), stream_(stream) {}
 
-  // Uniform in (0, 1), 52 bits, the ends excluded.
+  // Uniform in (0, 1), 52 bits, without the ends.
   double uniform(std::uint64_t step, std::uint32_t particle, std::uint32_t draw = 0) const;
   // Standard normal (Box-Muller).
   double normal(std::uint64_t step, std::uint32_t particle, std::uint32_t draw = 0) const;

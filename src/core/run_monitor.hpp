@@ -5,17 +5,17 @@
 
 namespace lanescape {
 
-// How a long run talks to whoever started it. Called from the run's threads; implementations are thread-safe.
+// A long run reports to its caller. The run's threads call it, so implementations are thread-safe.
 class RunMonitor {
  public:
   virtual ~RunMonitor() = default;
-  // `done` of `total` units of the named stage; total 0 where it is not known.
+  // `done` of `total` units of the named stage; total is 0 if unknown.
   virtual void progress(std::string_view stage, double done, double total) = 0;
-  // True once the run shall end at the next whole step.
+  // True if the run must end at the next whole step.
   virtual bool stop_requested() const = 0;
 };
 
-// For callers that neither watch nor interrupt.
+// Neither reports nor interrupts.
 class SilentMonitor final : public RunMonitor {
  public:
   void progress(std::string_view, double, double) override {}

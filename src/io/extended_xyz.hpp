@@ -24,7 +24,7 @@ struct Frame {
   std::map<std::string, std::string> info;  // the comment line's other pairs, as text; a bare word has the value "T"
 };
 
-// Reads frame by frame and holds one frame in memory. Strict: whatever could be misread throws Error(bad_input) with file and
+// Reads frame by frame and holds one frame in memory. Strict: ambiguous input throws Error(bad_input) with file and
 // line. Wanted are an orthorhombic Lattice, Properties with species:S:1 and pos:R:3 (other columns are skipped), pbc "T T T"
 // or none, the mixture's species and finite coordinates within 10^6 box lengths; positions may be unwrapped. With a size column,
 // each particle must have a radius or diameter, finite and above 0.

@@ -41,7 +41,7 @@ class Hdf5Writer final : public Archive {
   std::unique_ptr<Impl> impl_;
 };
 
-// Whatever is missing, of another type or shape, cut short or damaged throws Error(bad_input) naming file and field.
+// A field that is missing, of another type or shape, cut short or damaged throws Error(bad_input) naming file and field.
 class Hdf5Reader final : public Archive {
  public:
   explicit Hdf5Reader(const std::filesystem::path& path);

@@ -16,10 +16,10 @@ namespace lanescape::hdf5 {
 inline constexpr std::uint64_t format_version = 1;
 inline constexpr const char* version_attribute = "format_version";
 
-// The lock of all archives, and silence for the library's error printer, which belongs to the process and is put back.
-// Every archive is closed by its owner, so the library's own clean-up at exit is not needed; where a damaged object header was
-// met, release 1.10 has lost memory that this clean-up then waits for, and complains on stderr. A host that used HDF5 before
-// the first archive keeps the clean-up.
+// Holds the lock of all archives and silences the library's error printer, which belongs to the process, until the end of the
+// scope. Every archive is closed by its owner, so the library's clean-up at exit is not needed. After a damaged object header,
+// release 1.10 leaks memory for which that clean-up waits and complains on stderr, so it is disabled. A host that used HDF5 before
+// the first archive keeps it.
 class Session {
  public:
   Session() : lock_(mutex()) {
@@ -43,7 +43,7 @@ class Session {
   void* printer_data_ = nullptr;
 };
 
-// An identifier of the library and the function that gives it back.
+// An identifier of the library and the function that releases it.
 class Handle {
  public:
   using Close = herr_t (*)(hid_t);

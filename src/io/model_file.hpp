@@ -7,7 +7,7 @@
 
 namespace lanescape {
 
-// A mixture as a TOML file (docs/FORMATS.md). Whatever is unknown, missing, given twice or out of range throws
+// A mixture as a TOML file (docs/FORMATS.md). A key that is unknown, missing, given twice or out of range throws
 // Error(bad_input) with file and line. Left out: name is the file's stem, mass is 1, cutoff, truncation and images are
 // PairModel's; fractions are equal and come for all species or none.
 Model read_model_file(const std::filesystem::path& path);

@@ -13,7 +13,7 @@
 namespace lanescape::xyz {
 namespace {
 
-constexpr double orthorhombic_tolerance = 1e-12;  // of the edge; what rotating a cell to the axes leaves behind
+constexpr double orthorhombic_tolerance = 1e-12;  // of the edge; the residue of rotating a cell to the axes
 
 // A value in quotes, with backslash escapes.
 std::string take_quoted(std::string_view& rest) {

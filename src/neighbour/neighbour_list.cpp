@@ -17,14 +17,14 @@ std::vector<double> with_skin(std::vector<double> cutoffs, double skin) {
   return cutoffs;
 }
 
-// For each species the furthest that anything looks for it.
+// For each species the largest reach of a search for it.
 std::vector<double> margins(const std::vector<double>& reaches, std::size_t species) {
   std::vector<double> margins(species, 0.0);
   for (std::size_t k = 0; k < reaches.size(); ++k) margins[k % species] = std::max(margins[k % species], reaches[k]);
   return margins;
 }
 
-// A power of two [sigma] with twice the furthest that two points of a list get from one another below 2^31 units.
+// A power of two [sigma] in which twice the largest separation of two listed points is below 2^31.
 double unit_for(const std::vector<double>& reaches, double skin) {
   double furthest = skin;
   for (const double reach : reaches) furthest = std::max(furthest, reach + skin);
@@ -48,7 +48,7 @@ NeighbourList::NeighbourList(const Box& box, const ParticleLayout& layout, const
       points_(box, layout, margins(reaches_, layout.blocks().size()), threads,
               coordinates == Coordinates::floating ? 0.0 : unit_for(reaches_, skin)),
       neighbours_(static_cast<std::size_t>(threads)) {
-  // Of a fluid that fills the box evenly; where it does not, the list grows.
+  // Estimated for a fluid that fills the box evenly; otherwise the list grows.
   constexpr double half_a_vector_of_padding = 0.5 * kernels::slot_padding, margin = 1.02;
   const std::size_t species = layout.blocks().size();
   for (std::size_t k = 0; k < reaches_.size(); ++k) {

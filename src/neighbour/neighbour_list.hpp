@@ -14,18 +14,18 @@
 
 namespace lanescape {
 
-// Who is near whom: for every particle all others and their images within a cutoff and a skin, species by species. A particle's own
-// images are left out, unless asked for: what they do to it is a constant, but for what follows its state.
-// The list is made anew as soon as some particle is half the skin from where it was when the list was made: until then two
-// particles have come nearer by less than the skin, so that no pair within the cutoff is ever missed.
+// A neighbour list: for each particle all others and their images within cutoff plus skin, species by species. A particle's own
+// images are omitted by default: their energy is a constant, except for sites in states.
+// The list is rebuilt once a particle is half the skin away from where it was at the last rebuild (HalfSkin), so no pair within
+// the cutoff is missed.
 //
-// Rows are cut into blocks of fixed size, which threads share. The list depends on the positions it was made at, and on nothing
-// else: they are what has to be archived for the same bits.
+// Rows are cut into blocks of fixed size, which threads share. The list depends on nothing but the positions of the last rebuild:
+// archiving them preserves the bits.
 class NeighbourList {
  public:
-  // What its points are given as: as integers too for kernels in mixed precision.
+  // The representation of points: kernels in mixed precision need integers too.
   enum class Coordinates { floating, floating_and_fixed };
-  // Whose points are listed: those in reach; with a particle's own images in reach; every point, for who trusts no list.
+  // The points listed: those in reach; with a particle's own images in reach; all points: brute force, to check the list.
   enum class Members { others, with_own_images, every_point };
 
   // `cutoffs`: species x species, symmetric [sigma].
@@ -33,10 +33,10 @@ class NeighbourList {
                 const kernels::KernelTable& table, int threads, Coordinates coordinates = Coordinates::floating,
                 Members members = Members::others);
 
-  // To be called before the list is used at new positions (layout's order, wrapped or not).
+  // Call it before the list is used at new positions (layout's order, wrapped or not).
   void update(const AlignedArray& positions);
 
-  // Puts value [stride x slot] of each particle into the fourth number of its points' records, until the list is made anew.
+  // Copies value [stride x slot] of each particle into the fourth number of its points' records, until the next rebuild.
   void set_values(const AlignedArray& per_slot, std::size_t stride);
 
   std::size_t species() const { return points_.species(); }
@@ -44,27 +44,27 @@ class NeighbourList {
   std::size_t block_count() const { return blocks_.size(); }
   std::size_t species_of(std::size_t block) const { return blocks_[block].species; }
   kernels::NeighbourRows rows_of(std::size_t block) const;
-  // Where a block's neighbours are: which of so many arrays, one for each part, and from where on. For arrays of the same form.
+  // The array that holds a block's neighbours, one array for each part, and the offset of the first. For arrays of the same shape.
   std::size_t array_of(std::size_t block) const { return blocks_[block].part; }
   std::size_t first_neighbour(std::size_t block) const { return blocks_[block].first_neighbour; }
   std::size_t array_size(std::size_t array) const { return neighbours_[array].size(); }
-  // Of the points as integers, 0 if they are not given as such [sigma].
+  // The unit of the points as integers; 0 without them [sigma].
   double fixed_unit() const { return points_.fixed_unit(); }
-  // The most rows a block has.
+  // The largest number of rows in a block.
   static constexpr std::size_t block_rows = 32;
-  // The slot of the particle that the point at a place is, or is an image of.
+  // The slot of the particle that the point at this offset is, or is an image of.
   std::uint32_t slot_at(std::uint32_t place) const { return points_.slot(place / kernels::point_width); }
-  // Blocks [first_block(part), first_block(part + 1)) are about as much work for every part, one per thread.
+  // Blocks [first_block(part), first_block(part + 1)) are about the same work for each part, one per thread.
   std::size_t first_block(int part) const { return first_blocks_[static_cast<std::size_t>(part)]; }
   int parts() const { return threads_; }
 
   std::uint64_t rebuilds() const { return rebuilds_; }
   // Neighbours over all rows, each pair from both ends, skin included.
   std::size_t neighbours() const;
-  // Of list, points and what it takes to make them [bytes].
+  // Memory of list, points and scratch arrays [bytes].
   std::size_t memory() const;
 
-  // The positions the list was made at; reading makes it anew there.
+  // Archives the positions of the last rebuild; reading rebuilds the list there.
   void exchange(Archive& archive);
 
  private:
@@ -84,19 +84,19 @@ class NeighbourList {
   std::size_t slots_;
   std::vector<double> reaches_;  // cutoff and skin, species x species
   HalfSkin half_skin_;
-  bool own_images_left_out_;  // there are some in reach
-  double everywhere_;         // reach that finds every point, 0 if only those near are listed
+  bool own_images_left_out_;  // and some are in reach
+  double everywhere_;         // reach that finds all points, 0 if only those near are listed
   int threads_;
   PeriodicPoints points_;
   std::vector<Block> blocks_;
   std::vector<std::size_t> first_blocks_;
-  double expected_per_row_ = 0.0;                         // places, padding included
+  double expected_per_row_ = 0.0;                         // offsets, padding included
   std::vector<AlignedVector<std::uint32_t>> neighbours_;  // of all blocks that a part has made
   AlignedVector<std::uint32_t> lengths_;                  // of all blocks
   std::uint64_t rebuilds_ = 0;
 };
 
-// So many threads are worth their waiting for one another, some microseconds per evaluation, of those that are wanted.
+// The number of threads, at most `wanted`, that pay for their synchronisation of some microseconds per evaluation.
 int useful_threads(std::size_t particles, int wanted);
 
 }  // namespace lanescape

@@ -14,11 +14,11 @@
 namespace lanescape {
 namespace {
 
-// Beyond these, squares overflow or vanish, single precision tells nothing apart, or shifts leave no digits for a position.
+// Beyond these limits squares overflow or vanish, single precision resolves nothing, or shifts leave no digits for a position.
 constexpr double least_cutoff = 1e-100, most_cutoff = 1e100;
 constexpr double most_cutoffs_per_edge = 1e9;
 constexpr double most_boxes_away = 1e8;
-// Places are 32-bit numbers.
+// Offsets are 32-bit numbers.
 constexpr double most_points = 4294967295.0 / static_cast<double>(kernels::point_width);
 
 void check_lengths(const Box& box, double cutoff) {
@@ -72,7 +72,7 @@ class CandidateSearch {
     for (std::size_t i = 0; i < layout_.size(); ++i) particle_in_[layout_.slot_of(i)] = i;
   }
 
-  // visit(j, shift) for every image that may be within the cutoff of particle i, in no order.
+  // Calls visit(j, shift) for each image that may be within the cutoff of particle i, in any order.
   template <class Visit>
   void visit(std::size_t i, Visit visit) {
     const std::size_t self = place_of_[layout_.slot_of(i)] / kernels::point_width;
@@ -92,7 +92,7 @@ class CandidateSearch {
   }
   double in_unit(double length) const { return std::scalbn(length, exponent_); }
 
-  // More than separations of points and the caller's can differ by: each takes a few operations on numbers up to these.
+  // An upper bound on the difference between separations of points and of the caller's positions: each takes a few operations.
   double rounding(std::span<const double> positions, double cutoff) const {
     double largest = in_unit(cutoff);
     for (const double edge : box_.length) largest = std::max(largest, edge);

@@ -18,11 +18,11 @@ struct OrderedPairs {
   std::vector<double> distance;                   // |separation|
 };
 
-// No box is more often than this within a cutoff along an axis.
+// The largest number of boxes within a cutoff along an axis.
 inline constexpr double max_boxes_in_cutoff = 32.0;
 
 // All pairs with distance < cutoff, a particle and its own images included. `positions`: 3N numbers x0 y0 z0 x1 ..., wrapped or
-// not, in the unit of length of the others, whichever that is. A kernel names candidates in single precision; separations and the
+// not, in any unit of length that all arguments share. A kernel names candidates in single precision; separations and the
 // decision are those of the formulas above in double precision, rounded one by one, so that no instruction set changes them.
 // Throws Error(bad_input) where a number is not finite or out of range. O(N) at a given density.
 OrderedPairs ordered_pairs(const Box& box, std::span<const double> positions, double cutoff, const kernels::KernelTable& table);

@@ -10,7 +10,7 @@ namespace lanescape {
 namespace {
 
 constexpr double points_per_run = 8.0;
-// Points a search may read beyond the last.
+// The number of points that a search may read beyond the last.
 constexpr std::size_t read_ahead = 16;
 
 }  // namespace
@@ -35,8 +35,8 @@ void PeriodicPoints::shape_grid(Grid& grid, std::size_t particles) const {
   double volume = 1.0;
   for (const double length : box_.length) volume *= length + 2.0 * grid.margin;
   const double density = static_cast<double>(particles) / box_.volume();
-  // Columns as wide as a run within the margin fills a vector; flat cells, so that a run ends near where the margin does. Where
-  // particles are few, so are cells: emptiness must not cost memory.
+  // A column is so wide that a run within the margin fills a vector; cells are flat, so that a run ends near the margin. Few
+  // particles get few cells: empty space must not cost memory.
   const double least = std::cbrt(volume / (4.0 * density * volume + 64.0));
   const double wide = std::clamp(std::sqrt(points_per_run / (1.6 * grid.margin * density)), grid.margin / 3.0, grid.margin);
   const std::array<double, 3> edges = {
@@ -53,7 +53,7 @@ void PeriodicPoints::shape_grid(Grid& grid, std::size_t particles) const {
 
 namespace {
 
-// The cell of a coordinate along one axis, the first or last where it lies outside; the first for what is not a number.
+// The cell of a coordinate along one axis, the first or last if it lies outside, the first for NaN.
 std::size_t cell_along(double from_low, double cells_per_length, std::size_t cells) {
   const double cell = from_low * cells_per_length;
   if (!(cell > 0.0)) return 0;
@@ -96,7 +96,7 @@ void PeriodicPoints::list_images(const AlignedArray& positions, const kernels::S
       x[axis] = positions[axis * layout_slots_ + slot];
       const double wrapped = x[axis] + home[axis] * length;
       if (wrapped >= grid.margin && wrapped <= length - grid.margin) continue;
-      // Of coordinates that are not finite there is the particle itself and nothing else.
+      // A particle whose coordinates are not finite has no images.
       const double down = std::floor((wrapped + grid.margin) / length), up = std::floor((length + grid.margin - wrapped) / length);
       least[axis] = down > 0.0 ? static_cast<std::int16_t>(-down) : std::int16_t{0};
       most[axis] = up > 0.0 ? static_cast<std::int16_t>(up) : std::int16_t{0};
@@ -128,7 +128,7 @@ void PeriodicPoints::sort(const AlignedArray& positions) {
   });
 }
 
-// A counting sort: each part counts its own particles' images per cell, and puts them behind those of the parts before it.
+// A counting sort: each part counts its own particles' images per cell and stores them after those of earlier parts.
 void PeriodicPoints::sort_species(const AlignedArray& positions, std::size_t species) {
   Grid& grid = grids_[species];
   const std::size_t cell_count = grid.shape.cells[0] * grid.shape.cells[1] * grid.shape.cells[2];

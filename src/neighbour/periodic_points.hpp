@@ -25,12 +25,12 @@ class PeriodicPoints {
   // of two [sigma]; 0: there are none.
   PeriodicPoints(const Box& box, const ParticleLayout& layout, std::vector<double> margins, int threads, double fixed_unit = 0.0);
 
-  // Takes positions (layout's order, wrapped or not) and sorts. O(N).
+  // Sorts the points of these positions (layout's order, wrapped or not). O(N).
   void sort(const AlignedArray& positions);
-  // The same points at positions that have moved since.
+  // Updates the same points to new positions.
   void refresh(const AlignedArray& positions, int part);  // a part of them, one per thread
 
-  // Puts one number of each particle into the fourth of its points' records, until the next sort.
+  // Copies one number of each particle into the fourth number of its points' records, until the next sort.
   void set_values(const AlignedArray& per_slot, std::size_t stride, int part);  // of a part of the points, one per thread
 
   std::size_t species() const { return grids_.size(); }
@@ -43,9 +43,9 @@ class PeriodicPoints {
   double fixed_unit() const { return fixed_unit_; }
   // The slot of the particle that a point is, or is an image of.
   std::uint32_t slot(std::size_t k) const { return slots_[k]; }
-  // What was added to that particle's position: whole boxes [sigma].
+  // The shift from that particle's position, by whole boxes [sigma].
   std::array<double, 3> shift(std::size_t k) const { return shifts_[k]; }
-  // Places of the points of a species that are in the box, one for each particle, in the order of points.
+  // Offsets of the points of a species that are in the box, one for each particle, in the order of points.
   const AlignedVector<std::uint32_t>& rows(std::size_t species) const { return grids_[species].rows; }
 
   // A species' points as they were sorted, for kernels::KernelTable::points_within.
@@ -86,7 +86,7 @@ class PeriodicPoints {
   AlignedVector<std::uint32_t> slots_;
   AlignedVector<std::array<double, 3>> shifts_;
   std::array<AlignedVector<float>, 3> columns_;
-  // Of a sort, kept for their memory.
+  // Scratch arrays of a sort, kept to reuse their memory.
   std::vector<AlignedVector<Image>> images_;
   std::vector<AlignedVector<std::uint32_t>> places_;
 };

@@ -6,9 +6,9 @@
 namespace lanescape {
 namespace {
 
-// As many as fill a vector in the middle column of a probe's reach.
+// The number of points that fills a vector in the middle column of a probe's reach.
 constexpr double points_per_run = 8.0;
-// Low cells: a run ends near where the reach does.
+// Cells are low, so that a run ends near the reach.
 constexpr double cells_per_reach = 6.0;
 
 std::size_t cell_along(const kernels::GridShape& shape, std::size_t axis, double x) {
@@ -73,7 +73,7 @@ void ProbeCells::lay_out(const std::vector<Image>& images) {
     ++first_[place.column * stride + place.cell];
   }
   const std::size_t room = 4 + images.size() / columns / 4;
-  // From counts to ends; points are then put in from the last to the first.
+  // Counts become ends; points are then stored from the last to the first.
   std::uint32_t next = 0;
   for (std::size_t column = 0; column < columns; ++column) {
     for (std::size_t cell = 0; cell < stride; ++cell) next = first_[column * stride + cell] += next;

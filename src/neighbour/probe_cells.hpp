@@ -12,23 +12,23 @@
 namespace lanescape {
 
 // Points of one species of a periodic box and those of their images that a probe in the box can feel, by the columns of a grid.
-// Points can be put in and taken out, at the cost of moving what lies behind them in their column.
+// Points can be inserted and removed, at the cost of moving those after them in their column.
 class ProbeCells {
  public:
   using Point = std::array<double, 3>;
 
-  // `reach`: how far a probe feels [sigma]; `expected`: about how many points there will be in the box.
+  // `reach`: the largest cutoff of a probe [sigma]; `expected`: the approximate number of points in the box.
   ProbeCells(const Box& box, double reach, std::size_t expected);
 
-  // Takes these points, wrapped or not, in place of all others. O(N).
+  // Replaces all points by these, wrapped or not. O(N).
   // `diameters`: of each, or none [sigma].
   void assign(const std::vector<Point>& points, const std::vector<double>& diameters = {});
   void insert(const Point& point, double diameter = 0.0);
-  // Takes out a point that is in; false where there is none with these coordinates, to the bit.
+  // Removes a point; false if none has these coordinates to the bit.
   bool remove(const Point& point);
 
   std::size_t size() const { return size_; }  // points in the box
-  // For the kernels; the pair is the caller's to set. Valid until the next change.
+  // The view for kernels; the caller sets the pair. Valid until the next change.
   kernels::ProbeSpecies view() const;
 
  private:

@@ -3,7 +3,7 @@
 namespace lanescape {
 namespace {
 
-// Of the longest edge. At 10^6 boxes from home a coordinate has lost 2 10^-10 of an edge, a separation a few times that.
+// In units of the longest edge. 10^6 boxes away a coordinate has an error of 2 10^-10 edges, a separation a few times that.
 constexpr double relative_margin = 1e-8;
 
 double margin_in(const Box& box) { return relative_margin * *std::max_element(box.length.begin(), box.length.end()); }
@@ -54,7 +54,7 @@ SortedCells::SortedCells(const Box& box, double reach, std::vector<Point> points
     cell[i] = static_cast<std::uint32_t>(cell_of(position));
     ++first_[cell[i]];
   }
-  // From ends to beginnings, as points are put in from the last to the first.
+  // Ends become beginnings, as points are stored from the last to the first.
   for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
   for (std::size_t i = points.size(); i-- > 0;) points_[--first_[cell[i]]] = points[i];
 }
@@ -68,7 +68,7 @@ std::size_t SortedCells::cell_of(const std::array<double, 3>& wrapped) const {
   return cell;
 }
 
-// The points a cell is compared with: its own, and those of the half of the cells around it that comes after it.
+// A cell is compared with itself and with the later half of the cells around it.
 void SortedCells::runs_after(std::size_t x, std::size_t y, std::size_t z, std::vector<Run>& runs) const {
   const std::size_t column = (x * cells_[1] + y) * cells_[2], above = column + next(2, z);
   runs.assign(1, {first_[column + z], first_[column + z + 1]});

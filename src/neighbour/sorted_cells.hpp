@@ -12,28 +12,29 @@
 
 namespace lanescape {
 
-// Who is near whom among points that stay where they are (CellGrid is for those that move): sorted by the cells of a periodic
-// grid, so that points near in space are near in memory. An axis with room for fewer than three cells has one. Making it is O(N).
+// Finds near pairs of points that do not move (CellGrid is for those that do). Points are sorted by the cells of a periodic
+// grid, so that points near in space are near in memory. An axis with room for fewer than three cells has one. Construction is
+// O(N).
 class SortedCells {
  public:
   struct Point {
     std::array<double, 3> position;  // may be unwrapped, by up to 10^6 boxes [sigma]
-    std::uint32_t number;            // the caller's
+    std::uint32_t number;            // chosen by the caller
   };
 
-  // To find what is nearer than `reach` [sigma].
+  // Prepares to find pairs nearer than `reach` [sigma].
   SortedCells(const Box& box, double reach, std::vector<Point> points);
-  // Particles by their places in the configuration.
+  // The points are numbered as the particles of the configuration.
   SortedCells(const Configuration& configuration, double reach);
 
   // Calls visit(i, j, squared) with the numbers of any two points nearer to each other than the reach, each pair once, in no
-  // particular order, and the square of their distance, that of their nearest images. A distance may be off by less than margin(),
-  // and so much further pairs are met too: whatever way it is computed and rounded, no pair is missed.
+  // particular order, and the square of their distance, that of their nearest images. The error of a distance is below margin(),
+  // and pairs up to that much beyond the reach are visited too: however a caller rounds distances, no pair is missed.
   template <class Visit>
   void for_each_pair(Visit visit) const;
   double margin() const { return margin_; }  // [sigma]
 
-  // With how many others each particle would be compared on average, `particles` spread evenly.
+  // The mean number of others with which a particle is compared, if `particles` are spread evenly.
   static double mean_candidates(const Box& box, double reach, std::size_t particles);
 
  private:
@@ -74,7 +75,7 @@ template <class Visit>
 void SortedCells::for_each_pair(Visit visit) const {
   const double squared_reach = reach_ * reach_;
   std::vector<Run> runs;
-  std::vector<Found> found;  // one more than can be: the place is written before it is known whether it counts
+  std::vector<Found> found;  // one extra element: an entry is written before the test
   for (std::size_t x = 0, cell = 0; x < cells_[0]; ++x)
     for (std::size_t y = 0; y < cells_[1]; ++y)
       for (std::size_t z = 0; z < cells_[2]; ++z, ++cell) {
@@ -86,7 +87,7 @@ void SortedCells::for_each_pair(Visit visit) const {
         for (std::size_t self = first_[cell]; self < first_[cell + 1]; ++self) {
           const Point& point = points_[self];
           runs[0].begin = self + 1;
-          // Without branches: which of them are near cannot be foreseen.
+          // Without branches: they would be unpredictable.
           std::size_t count = 0;
           for (const Run& run : runs)
             for (std::size_t k = run.begin; k < run.end; ++k) {

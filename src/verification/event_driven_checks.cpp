@@ -41,7 +41,7 @@ struct FlightCase {
       s.vx = speed * (2.0 * draw() - 1.0);
       s.vy = speed * (2.0 * draw() - 1.0);
       s.vz = speed * (2.0 * draw() - 1.0);
-      // Some boxes away at most, as lists between two resynchronisations.
+      // At most a few boxes away, as between two resynchronisations.
       s.x = 2.0 * box[0] * draw() - box[0];
       s.y = 2.0 * box[1] * draw() - box[1];
       s.z = 2.0 * box[2] * draw() - box[2];
@@ -150,7 +150,7 @@ struct FlightChecks {
           }
   }
 
-  // Several hit at the same time: the one that is first in the list is it.
+  // Several collide at the same time: the first in the list is the result.
   void run_ties(const kernels::KernelTable& table) {
     for (std::size_t n = 2; n <= 17; ++n)
       for (std::size_t first = 0; first < n; ++first) {
@@ -184,11 +184,11 @@ struct FlightChecks {
     tested.assign(times);
     count += wrong();
     for (std::uint32_t k = 0; k < 2000; ++k) {
-      // As in a run the first one is replaced most of the time, and by something later.
+      // As in a run, mostly the first event is replaced, by a later one.
       const auto step = static_cast<std::uint32_t>(events) + k;
       const bool first = random.below(3, events, step, 2) > 0;
       const std::size_t event = first ? tested.first() : random.below(static_cast<std::uint32_t>(events), events, step, 3);
-      if (event >= events) break;  // counted as wrong before
+      if (event >= events) break;  // already counted as wrong
       times[event] = draw(step) + (first ? 1e-3 * k : 0.0);
       tested.update(event, times[event]);
       count += wrong();

@@ -58,7 +58,7 @@ Configuration on_lattice(std::size_t n, Sizes sizes, bool cubic, double spacing,
       {}};
   const CounterRandom random(seed, RandomStream::displacements);
   for (std::size_t i = 0; i < n; ++i) {
-    // Sites all over the box, not its first layers.
+    // Sites throughout the box, not only in its first layers.
     const std::size_t site = i * (cells[0] * cells[1] * cells[2]) / n;
     const std::array<std::size_t, 3> at = {site % cells[0], site / cells[0] % cells[1], site / (cells[0] * cells[1])};
     Point p;
@@ -184,7 +184,7 @@ void add_boxes(std::vector<HardSphereCase>& cases) {
         cases.push_back({name("cube"), near_contact(n, cube(length), sizes)});
         cases.push_back({name("box"), near_contact(n, {{1.3 * length, length, 1.1 * length}}, sizes)});
       }
-    // Half a box apart, both images alike.
+    // Half a box apart: two images at the same distance.
     Configuration halves = pair_at({0.0, 0.0, 0.0}, {0.5 * twice, 0.0, 0.0}, cube(twice), 0.25 * twice, 0.25 * twice);
     cases.push_back({fmt::format("{} pair touching in two images", to_string(sizes)), halves});
     halves.positions[3] = std::nextafter(halves.positions[3], 10.0);

@@ -28,7 +28,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // Pairs of particles in the user's order, sorted.
 using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
-// Pairs in one of the two and not in the other; one that is there twice counts too.
+// The number of pairs in one but not in both; duplicates count too.
 double wrong_pairs(const Pairs& a, const Pairs& b) {
   Pairs different;
   std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(different));
@@ -74,7 +74,7 @@ double largest_radius(const Configuration& configuration) {
   return configuration.radii.empty() ? 0.0 : *std::max_element(configuration.radii.begin(), configuration.radii.end());
 }
 
-// How far beyond contact the nearest image is still the only one.
+// The reach beyond contact within which the nearest image is the only one.
 double room(const Configuration& configuration) {
   return std::max(0.0, 0.5 * configuration.box.shortest() - 2.0 * largest_radius(configuration));
 }
@@ -104,7 +104,7 @@ struct AllPairsChecks {
   }
 
  private:
-  // With room for half of the pairs: all are counted, the half that is written is right, and nothing is written behind it.
+  // With room for half of the pairs, all are counted, the half written is right, and nothing is written beyond.
   void run_truncated(const std::string& name, const Prepared& prepared, HardSphereOverlap& spheres) {
     const Configuration& c = prepared.configuration;
     const std::size_t slots = prepared.layout.slots(), float_slots = (slots + 15) / 16 * 16;
@@ -124,7 +124,7 @@ struct AllPairsChecks {
   }
 };
 
-// What the reference gives as the force of one contact at most: the scale of its rounding.
+// The largest force of one contact in the reference: the scale of its rounding.
 double force_scale(kernels::ContactPotential potential, double s) {
   return potential == kernels::ContactPotential::cubic ? s * s : s;
 }
@@ -163,8 +163,8 @@ struct ListChecks {
                Check(table, "sphere_contact_forces linear", tolerance::contact_force),
                Check(table, "sphere_contact_forces cubic", tolerance::contact_force)} {}
 
-  // A list is made once and then followed while the particles go farther and farther: by thousandths of the skin, within half
-  // of it, at half of it and, in the end, anywhere. Not one overlap may be missed on the way.
+  // A list is built once and used while the particles move farther and farther: by thousandths of the skin, within half
+  // of it, at half of it and, in the end, anywhere. No overlap may be missed.
   void run(const std::string& name, const Prepared& prepared, const kernels::KernelTable& table) {
     const Configuration& c = prepared.configuration;
     const CounterRandom random(3, RandomStream::displacements);
@@ -199,7 +199,7 @@ struct ListChecks {
       std::vector<double> scale(c.size(), 0.0);
       for (const auto& [i, j] : expected)
         for (const std::size_t k : {i, j}) scale[k] += force_scale(kernel_potential, c.radii[i] + c.radii[j]);
-      // Forces are added to what is there.
+      // Forces are added to the previous values.
       AlignedArray force(prepared.layout.dimension(), 0.0);
       list.add_contact_forces(kernel_potential, force);
       const std::vector<double> in_users_order = prepared.layout.to_user(force);

@@ -55,7 +55,7 @@ Configuration in_box(const Box& box, std::size_t n, std::size_t species) {
     const std::array<int, 3> cell{c % cells[0], c / cells[0] % cells[1], c / cells[0] / cells[1]};
     fluid.species.push_back(static_cast<int>(i % species));
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      // As in a long run: some are boxes away.
+      // Some are boxes away, as in a long run.
       const double away = i % 3 == 2 ? static_cast<double>(i % 5) - 2.0 : 0.0;
       const double displacement = 0.16 * (jitter.uniform(n, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(axis)) - 0.5);
       fluid.positions.push_back((cell[axis] + 0.5) * spacing(axis) + displacement + away * box.length[axis]);

@@ -14,7 +14,7 @@ struct StateMixtureCase {
   Configuration configuration;
 };
 
-// How a model of these cases is put together.
+// The options of a model of these cases.
 struct StateMixtureVariant {
   enum class Filter { every, own, cross, asymmetric };
   enum class Potentials { lennard_jones, tables, both };

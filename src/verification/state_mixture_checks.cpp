@@ -45,7 +45,7 @@ double largest_reach(const StateMixtureModel& model) {
   return reach;
 }
 
-// Of particles, relative to the absolute forces on each; infinite where padding is not zero.
+// The worst deviation of a gradient, relative to the absolute forces on each particle; infinite if padding is not zero.
 double gradient_deviation(const AlignedArray& gradient, const ParticleLayout& layout, const reference::StateEvaluation& expected) {
   const std::vector<double> g = layout.to_user(gradient);
   double worst = 0.0;
@@ -70,7 +70,7 @@ bool has_tables(const StateMixtureModel& model) {
   });
 }
 
-// What the kernels of one kind of potential did.
+// The checks of the kernels of one kind of potential.
 struct PotentialChecks {
   Check energy, gradient_energy, gradient, virial, stress_gradient, tensor, one_body, energy_bits, gradient_bits;
 

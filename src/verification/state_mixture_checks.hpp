@@ -26,13 +26,13 @@ inline constexpr double switching_spline_gradient = 4e-7;
 
 }  // namespace tolerance
 
-// Which switching functions the reference takes: the exact ones, or the splines that kernels take.
+// The switching functions of the reference: the exact ones, or the splines of the kernels.
 enum class SwitchingForm { exact, spline };
 
-// What the scalar reference says, in the user's order. O(N^2 images).
+// The result of the scalar reference, in the user's order. O(N^2 images).
 reference::StateEvaluation evaluate_reference(const StateMixtureModel& model, const Configuration& configuration,
                                               SwitchingForm form = SwitchingForm::spline);
-// The model as the reference takes it.
+// The model in the reference's terms.
 reference::StateSystem reference_system(const StateMixtureModel& model, SwitchingForm form);
 
 std::vector<Deviation> verify_state_mixtures(const kernels::KernelTable& table, const std::vector<StateMixtureCase>& cases);

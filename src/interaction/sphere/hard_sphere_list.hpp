@@ -28,7 +28,7 @@ class HardSphereList {
   bool any_overlap(const AlignedArray& positions);
   // The overlapping pairs, valid until the next call.
   ContactPairs find_contacts(const AlignedArray& positions);
-  // Adds the fictitious forces between them to `force`.
+  // Adds the fictitious forces of the pairs found last to `force`.
   void add_contact_forces(kernels::ContactPotential potential, AlignedArray& force);
 
   std::uint64_t rebuilds() const { return rebuilds_; }

@@ -25,9 +25,9 @@ class UniformSpline {
 
   double value(double x) const;
   double slope(double x) const;
-  // {b, c, d, a}: what kernels::CubicSpline's records hold.
+  // {b, c, d, a}, the record of kernels::CubicSpline.
   const std::array<double, kernels::point_width>& piece(std::size_t interval) const { return pieces_[interval]; }
-  // A straight line before the first knot, as many intervals as reach down to `x` or below.
+  // Adds a straight line before the first knot, in as many intervals as reach `x` or below.
   void extend_down_to(double x);
 
  private:

@@ -94,11 +94,11 @@ TanhCascade::TanhCascade(std::vector<std::vector<Step>> of_species) : steps_(std
 }
 
 void TanhCascade::evaluate(std::size_t species, double value, std::span<StateProbability> states) const {
-  // What is left after the states before.
+  // The probability left after the states before.
   StateProbability rest{1.0, 0.0, 0.0};
   std::size_t a = 0;
   for (const Step& step : steps_[species]) {
-    // ln above - ln below = 2x: the greater of the two is never the logarithm of a small number, and from it follows the other.
+    // ln above - ln below = 2x: the larger of the two is never the logarithm of a small number, and gives the other.
     const double x = (value - step.threshold) / step.width, small = std::exp(-2.0 * std::abs(x));
     const double major = 1.0 / (1.0 + small), minor = small * major, log_major = std::log(major);
     const double above = x > 0.0 ? major : minor, below = x > 0.0 ? minor : major;

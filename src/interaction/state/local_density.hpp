@@ -8,8 +8,8 @@
 
 namespace lanescape {
 
-// w(r), which counts a neighbour at a distance: any function that is smooth and reaches zero at the cutoff with zero slope. It is
-// taken as a cubic spline in r^2, of which derivatives are exact.
+// The switching function w(r), the weight of a neighbour at a distance: any smooth function with zero value and slope at the
+// cutoff. A cubic spline in r^2 represents it; forces use the exact derivative of the spline.
 class SwitchingFunction {
  public:
   SwitchingFunction(const std::function<double(double r)>& w, double cutoff, std::size_t intervals = default_intervals);
@@ -45,12 +45,12 @@ class LocalDensity final : public OrderParameter {
 
   std::vector<SwitchingFunction> switching_;
   std::size_t species_;
-  std::vector<double> filter_, filter_back_;  // c(s, t) and, at the same place, c(t, s)
+  std::vector<double> filter_, filter_back_;  // c(s, t), and its transpose c(t, s)
 };
 
 // A cascade of tanh for each species: state 0 above the first threshold of the order parameter, else state 1 above the second, ...,
-// else the last; with one threshold p_0 = (1 + tanh((x - threshold) / width)) / 2, the default of [P]. A species with fewer states
-// than others is in none of the rest.
+// else the last; with one threshold p_0 = (1 + tanh((x - threshold) / width)) / 2, the default of [P]. In a species with fewer
+// states than others the missing ones have probability zero.
 class TanhCascade final : public StateResponse {
  public:
   struct Step {
@@ -66,7 +66,7 @@ class TanhCascade final : public StateResponse {
   std::size_t states_;
 };
 
-// Probabilities that follow nothing.
+// Constant probabilities.
 class FixedProbabilities final : public StateResponse {
  public:
   explicit FixedProbabilities(std::vector<std::vector<double>> of_species) : p_(std::move(of_species)) {}

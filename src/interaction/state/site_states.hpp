@@ -14,9 +14,9 @@
 #include "neighbour/list_blocks.hpp"
 #include "neighbour/neighbour_rows.hpp"
 
-// Energies that depend on positions by way of the states of sites too ([P] Eq. 1): U(p(R), R), p_ia the probability of site i to be
-// in state a. What gives the probabilities and what gives the energy know nothing of each other. The one tells p and takes dU/dp;
-// the other takes p and tells dU/dp and the forces at fixed p. Either is written once and goes with any of the other kind.
+// Energies that depend on positions also through the states of sites ([P] Eq. 1): U(p(R), R), where p_ia is the probability of site
+// i to be in state a. Probabilities and energies are independent parts. A response gives p and receives dU/dp; a potential receives
+// p and gives dU/dp and the forces at fixed p. Any response works with any potential.
 namespace lanescape {
 
 // The probabilities of every site, site by site.
@@ -28,8 +28,8 @@ struct SiteStates {
   std::span<const double> of(std::size_t slot) const { return {p.data() + slot * states, states}; }
 };
 
-// Where sites are, who is near whom, and which states they are in: what order parameters and potentials see of a system. In the
-// layout's order throughout.
+// Positions, neighbours and states of all sites: the view that order parameters and potentials have of a system. Everything is in
+// the layout's order.
 class Sites {
  public:
   struct Options {
@@ -37,7 +37,7 @@ class Sites {
     double skin = 0.0;                                                         // of the list [sigma]
     NeighbourList::Members members = NeighbourList::Members::with_own_images;  // or every point
   };
-  // `reaches`: how far sites must see each other, species x species, symmetric [sigma].
+  // `reaches`: the distance within which sites are listed, species x species, symmetric [sigma].
   Sites(const Box& box, const ParticleLayout& layout, std::vector<double> reaches, std::size_t states,
         const kernels::KernelTable& table, const Options& options);
 
@@ -54,19 +54,19 @@ class Sites {
   SiteStates& site_states() { return states_; }
   const SiteStates& site_states() const { return states_; }
 
-  // visit(slot, other's slot, {r - r_other}) for every pair of the list, once from each end, images as sites of their own; some are
-  // out of reach. By one thread.
+  // Calls visit(slot, other's slot, r - r_other) for each pair of the list, once from each end, with images as separate sites. Some
+  // pairs are out of reach. Runs on one thread.
   template <class Visit>
   void for_each_pair(Visit visit) const;
 
-  // For kernels. body(block, its rows, scratch) for every block, shared by threads, with a scratch that each makes once. Rows have
-  // the list's neighbours, or those that are near now, where a part has said so since move_to().
+  // Calls body(block, its rows, scratch) for each block; threads share the blocks and each makes one scratch. Rows have the list's
+  // neighbours, or those within reach now once use_near() has been called since move_to().
   template <class MakeScratch, class Body>
   void for_each_block(MakeScratch make_scratch, Body body) const;
-  // Lets points carry the number of each site, or what kernels need of the probabilities.
+  // Store a number of each site, or the probabilities that kernels need, in the records of points.
   void put_values(const AlignedArray& per_slot) { list_.set_values(per_slot, 1); }
   void put_states();
-  // Room for who is near in a block, for kernels::KernelTable::state_densities; who takes it for one block takes it for all.
+  // Room for the neighbours within reach of a block, for kernels::KernelTable::state_densities. Fill it for all blocks or for none.
   struct Near {
     std::uint32_t *places, *lengths;
     double* slopes;
@@ -87,46 +87,46 @@ class Sites {
   AlignedArray positions_;
   std::vector<double> reaches_squared_;
   bool near_known_ = false;
-  std::vector<AlignedVector<std::uint32_t>> near_;  // as the list has its neighbours
+  std::vector<AlignedVector<std::uint32_t>> near_;  // arranged as the list's neighbours
   std::vector<AlignedArray> near_slopes_;
   AlignedVector<std::uint32_t> near_lengths_;  // of all blocks
   SiteStates states_;
-  AlignedArray groups_;  // from three states on, of all points: four states, and again four
+  AlignedArray groups_;  // for three states or more: groups of four states of all points
 };
 
-// What is summed up. Each part adds its own.
+// The sums to which each part adds.
 struct StateSums {
   enum class Wanted { energy, gradient, stress };
 
   Wanted wanted;
-  AlignedArray& gradient;  // dU/dr, 3 x slots; may be left alone where only the energy is wanted
+  AlignedArray& gradient;  // dU/dr, 3 x slots; unused if only the energy is wanted
   AlignedArray& slopes;    // dU/dp, slots x states; likewise
   double energy = 0.0;
   double virial = 0.0;                    // sum r.f
-  std::array<double, 6> virial_tensor{};  // where the stress is wanted
+  std::array<double, 6> virial_tensor{};  // if the stress is wanted
 
-  // A pair's (or one end's, at half `weight`) virial from -u'/r and its separation.
+  // Adds the virial of a pair, or of one end at half the weight; force_over_r = -u'/r.
   void add_virial(double force_over_r, const Point& d, double weight);
 };
 
-// One number of each site that its state follows.
+// One number per site, on which its state depends.
 class OrderParameter {
  public:
   virtual ~OrderParameter() = default;
-  // How far sites of each pair of species must see each other, species x species [sigma]; empty: not at all.
+  // The reach for each pair of species, species x species [sigma]; empty without neighbours.
   virtual std::vector<double> reaches() const { return {}; }
   virtual void evaluate(Sites& sites, AlignedArray& values) = 0;  // per slot
   // Adds multipliers[slot] d value[slot]/dr to the gradient, for all sites, and its virial.
   virtual void add_gradient(Sites& sites, const AlignedArray& multipliers, StateSums& sums) = 0;
 };
 
-// One state of one site: p, dp/d(order parameter), ln p. The logarithm stays finite where p underflows to zero; where the slope is
-// zero it is not looked at.
+// One state of one site: p, dp/d(order parameter), ln p. The logarithm stays finite where p underflows to zero; it is not used
+// where the slope is zero.
 struct StateProbability {
   double p = 0.0, slope = 0.0, logarithm = 0.0;
 };
 
-// How the probabilities of a site follow from its order parameter. They add up to one.
+// The probabilities of a site's states as functions of its order parameter. They add up to one.
 class StateResponse {
  public:
   virtual ~StateResponse() = default;
@@ -134,7 +134,7 @@ class StateResponse {
   virtual void evaluate(std::size_t species, double value, std::span<StateProbability> states) const = 0;
 };
 
-// A potential of pairs or of more sites that depends on their states.
+// A potential of two or more sites that depends on their states.
 class StatePotential {
  public:
   virtual ~StatePotential() = default;

@@ -36,7 +36,7 @@ NeighbourList::Members members(PairSearch search) {
   return search == PairSearch::all_pairs ? NeighbourList::Members::every_point : NeighbourList::Members::with_own_images;
 }
 
-// The Lennard-Jones potentials of a model, and its tables, where it has any; each with none in the place of the other.
+// The Lennard-Jones potentials and the tables of a model; each has empty entries where the other applies.
 std::vector<std::unique_ptr<StatePotential>> potentials_of(const StateMixtureModel& model) {
   const StatePairs order{model.species.size(), model.most_states()};
   std::vector<LennardJonesStates::Pair> pairs(order.size());

@@ -188,7 +188,7 @@ TEST(HardSphereList, SeesTheOtherImageOfAPairInABoxOfTwiceTheDiameter) {
   EXPECT_TRUE(list.any_overlap(row.positions()));
 }
 
-// All that a path sees of the list: whatever search made it, a path has the same bits.
+// All that a path sees of the list: a path has the same bits with any search.
 TEST(HardSphereList, HasTheSameContactsAndForcesToTheBitByCellsAndAllPairs) {
   const Configuration start = hard_sphere_start(hard_sphere_binary(), 2000, 0.49, Arrangement::random, 1);
   const ParticleLayout layout(start.species, 2);
