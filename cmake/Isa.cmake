@@ -14,12 +14,17 @@ foreach(line IN LISTS lines)
   list(APPEND LANESCAPE_ALL_ISAS ${isa})
 endforeach()
 
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
-  set(default_isas ${LANESCAPE_ALL_ISAS})
-else()
-  set(default_isas generic)
+set(LANESCAPE_ISAS "" CACHE STRING "Instruction sets to compile the kernels for (${LANESCAPE_ALL_ISAS}); empty: all for this processor")
+if(NOT LANESCAPE_ISAS)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
+    set(LANESCAPE_ISAS ${LANESCAPE_ALL_ISAS})
+    if(NOT LANESCAPE_BUILD_TESTS)
+      list(REMOVE_ITEM LANESCAPE_ISAS generic)  # on x86-64 the portable one is there to be tested
+    endif()
+  else()
+    set(LANESCAPE_ISAS generic)
+  endif()
 endif()
-set(LANESCAPE_ISAS "${default_isas}" CACHE STRING "Instruction sets to compile the kernels for (${LANESCAPE_ALL_ISAS})")
 foreach(isa IN LISTS LANESCAPE_ISAS)
   if(NOT isa IN_LIST LANESCAPE_ALL_ISAS)
     message(FATAL_ERROR "LANESCAPE_ISAS: unknown instruction set '${isa}': allowed are ${LANESCAPE_ALL_ISAS}")
@@ -54,6 +59,10 @@ function(lanescape_add_isa_objects name)
     target_compile_options(
       ${target} PRIVATE ${LANESCAPE_ISA_FLAGS_${isa}} -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-exceptions -fno-rtti
                         -fvisibility=hidden -fvisibility-inlines-hidden)
+    if(isa STREQUAL "generic" AND NOT LANESCAPE_ISAS STREQUAL "generic")
+      # Beside vector legs the portable one is there to be tested: at -O3 its forms take minutes to compile.
+      target_compile_options(${target} PRIVATE -O1)
+    endif()
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
       # GCC 12's own AVX-512 headers set a vector from itself (GCC bug 105593).
       # The notes on passing wide vectors concern calls between objects, of which these have none.

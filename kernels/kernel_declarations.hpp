@@ -6,7 +6,7 @@
 // Every kernel of the instruction set being compiled. kernel_list.def documents them.
 namespace lanescape::kernels::LANESCAPE_ISA {
 
-#define LANESCAPE_PAIR_FORM(name) extern const PairKernels pair_##name;
+#define LANESCAPE_PAIR_FORM(name, Form) extern const PairKernels pair_##name;
 LANESCAPE_PAIR_FORMS(LANESCAPE_PAIR_FORM)
 #undef LANESCAPE_PAIR_FORM
 

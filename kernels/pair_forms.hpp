@@ -5,21 +5,21 @@
 
 namespace lanescape::kernels {
 
-// The pair potentials that kernels exist for, a line each: kernels/forms/<name>.hpp says what its coefficients mean,
-// kernels/pair_<name>.cpp compiles the loops over it.
-#define LANESCAPE_PAIR_FORMS(FORM) \
-  FORM(lennard_jones)              \
-  FORM(even_powers)                \
-  FORM(yukawa)                     \
-  FORM(soft_sphere)                \
-  FORM(polydisperse)
+// The pair potentials that kernels exist for, a line each: its file in kernels/forms/, which says what its coefficients mean, and the
+// class in it. The build reads these lines and compiles all loops over each form, once per instruction set.
+#define LANESCAPE_PAIR_FORMS(FORM)  \
+  FORM(lennard_jones, LennardJones) \
+  FORM(even_powers, EvenPowers)     \
+  FORM(yukawa, Yukawa)              \
+  FORM(soft_sphere, SoftSphere)     \
+  FORM(polydisperse, Polydisperse)
 
 enum class PairForm : std::uint32_t {
-#define LANESCAPE_PAIR_FORM(name) name,
+#define LANESCAPE_PAIR_FORM(name, Form) name,
   LANESCAPE_PAIR_FORMS(LANESCAPE_PAIR_FORM)
 #undef LANESCAPE_PAIR_FORM
 };
-#define LANESCAPE_PAIR_FORM(name) +1
+#define LANESCAPE_PAIR_FORM(name, Form) +1
 inline constexpr std::size_t pair_form_count = 0 LANESCAPE_PAIR_FORMS(LANESCAPE_PAIR_FORM);
 #undef LANESCAPE_PAIR_FORM
 

@@ -8,7 +8,7 @@ constinit const KernelTable table{
     .name = LANESCAPE_ISA_STRING(LANESCAPE_ISA),
     .lanes = lanes,
     .sphere_pair_columns = float_lanes,
-#define LANESCAPE_PAIR_FORM(name) &pair_##name,
+#define LANESCAPE_PAIR_FORM(name, Form) &pair_##name,
     .pair = {LANESCAPE_PAIR_FORMS(LANESCAPE_PAIR_FORM)},
 #undef LANESCAPE_PAIR_FORM
 #define LANESCAPE_KERNEL(result, kernel, arguments) .kernel = kernel,

@@ -2,12 +2,15 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <variant>
 
 /// Pair potentials without truncation, one struct each, written from the formulas.
 ///
-/// To add a form: a struct with the members of LennardJones, and its name in PairForm.
+/// To add a form: a struct with the members of LennardJones, its name in PairForm and its line in pair_form().
 namespace lanescape::reference {
 
 /// u(r) and its derivatives, and what rounding in them scales with.
@@ -184,5 +187,19 @@ struct Polydisperse {
 };
 
 using PairForm = std::variant<LennardJones, Mie, InversePower, Yukawa, Harmonic, Hertzian, Polydisperse>;
+
+/// The form of a name with its numbers beside epsilon and sigma, in the order in which model files have them (docs/FORMATS.md). Throws
+/// std::invalid_argument for a name that is not here.
+inline PairForm pair_form(std::string_view name, double epsilon, double sigma, std::span<const double> numbers) {
+  const auto whole = [&](std::size_t k) { return static_cast<int>(numbers[k]); };
+  if (name == "lennard-jones") return LennardJones{epsilon, sigma};
+  if (name == "mie") return Mie{epsilon, sigma, whole(0), whole(1)};
+  if (name == "inverse-power") return InversePower{epsilon, sigma, whole(0)};
+  if (name == "yukawa") return Yukawa{epsilon, sigma, numbers[0]};
+  if (name == "harmonic") return Harmonic{epsilon, sigma};
+  if (name == "hertzian") return Hertzian{epsilon, sigma};
+  if (name == "polydisperse") return Polydisperse{epsilon, sigma, numbers[0]};
+  throw std::invalid_argument("the reference has no pair potential '" + std::string(name) + "'");
+}
 
 }  // namespace lanescape::reference

@@ -26,6 +26,7 @@ struct EnergySums {
 template <class V>
 struct EnergyForm {
   static constexpr bool has_diameters = false;
+  static constexpr bool in_box_units = false;
   using Terms = EnergyTerms<V>;
   using Sums = EnergySums<V>;
 

@@ -172,7 +172,9 @@ LANESCAPE_INLINE void tile_against_block(const Columns& columns, const SpeciesBl
     if (limits.first_row + row_tile > limits.row_count) clear = padded;
     loop.template operator()<Masking::rows>(limits.first_column, clear);
     loop.template operator()<Masking::none>(clear, whole);
-    loop.template operator()<Masking::columns>(clear > whole ? clear : whole, padded);
+    // One mask serves all four rows; a loop of its own is worth its time to compile only where it is hot.
+    constexpr Masking last = Form::in_box_units ? Masking::columns : Masking::rows;
+    loop.template operator()<last>(clear > whole ? clear : whole, padded);
   }
   add_sums(totals, u, sums);
 }
@@ -248,10 +250,9 @@ void all_pairs(const PairInput& in, double* gradient, PairOutput& out) {
 
 template <class Form, Output output>
 LANESCAPE_INLINE void sum_all_pairs(const PairInput& in, double* gradient, PairOutput& out) {
-  if (in.unit == LengthUnit::box)
-    all_pairs<Form, output, LengthUnit::box>(in, gradient, out);
-  else
-    all_pairs<Form, output, LengthUnit::sigma>(in, gradient, out);
+  if constexpr (Form::in_box_units)
+    if (in.unit == LengthUnit::box) return all_pairs<Form, output, LengthUnit::box>(in, gradient, out);
+  all_pairs<Form, output, LengthUnit::sigma>(in, gradient, out);
 }
 
 }  // namespace lanescape::kernels::LANESCAPE_ISA

@@ -1,11 +1,5 @@
 #include "verification/reference_bridge.hpp"
 
-#include <fmt/format.h>
-
-#include <string_view>
-
-#include "core/error.hpp"
-
 namespace lanescape {
 namespace {
 
@@ -25,24 +19,16 @@ reference::Truncation translate(Truncation truncation) {
   return reference::Truncation::shifted;
 }
 
-// By the word of the form in model files.
-reference::PairForm translate(std::string_view form, const PairNumbers& p) {
-  const auto whole = [&](std::size_t k) { return static_cast<int>(p.form[k]); };
-  if (form == "lennard-jones") return reference::LennardJones{p.epsilon, p.sigma};
-  if (form == "mie") return reference::Mie{p.epsilon, p.sigma, whole(0), whole(1)};
-  if (form == "inverse-power") return reference::InversePower{p.epsilon, p.sigma, whole(0)};
-  if (form == "yukawa") return reference::Yukawa{p.epsilon, p.sigma, p.form[0]};
-  if (form == "harmonic") return reference::Harmonic{p.epsilon, p.sigma};
-  if (form == "hertzian") return reference::Hertzian{p.epsilon, p.sigma};
-  if (form == "polydisperse") return reference::Polydisperse{p.epsilon, p.sigma, p.form[0]};
-  throw_bad_input(fmt::format("the reference has no pair potential '{}'", form));
+reference::PairForm form_of(const PairModel& model, std::size_t ab) {
+  const PairNumbers numbers = model.numbers(ab);
+  return reference::pair_form(model.form->word, numbers.epsilon, numbers.sigma, numbers.form);
 }
 
 reference::PairMixture translate(const PairModel& model) {
   reference::PairMixture mixture{model.species.size(), {}};
   for (std::size_t ab = 0; ab < model.sigma.size(); ++ab) {
     const double cutoff = model.form->has_diameters ? reference::unlimited : model.cutoff_of(ab);
-    mixture.potentials.push_back({translate(model.form->word, model.numbers(ab)), cutoff, translate(model.truncation)});
+    mixture.potentials.push_back({form_of(model, ab), cutoff, translate(model.truncation)});
   }
   return mixture;
 }
