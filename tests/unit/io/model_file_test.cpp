@@ -239,7 +239,7 @@ INSTANTIATE_TEST_SUITE_P(
     Header, ModelFileRefusal,
     ::testing::Values(BadModel{"BrokenToml", "kind = \n", 1, "TOML"}, BadModel{"Binary", std::string("\0\1\2", 3), 1, "TOML"},
                       BadModel{"KeyTwice", kind + kind, 2, "TOML"}, BadModel{"NoKind", species + pairs, 1, "'kind' is missing"},
-                      BadModel{"UnknownKind", "\nkind = 'morse'\n", 2, "polydisperse, hard-sphere, ucg"},
+                      BadModel{"UnknownKind", "\nkind = 'morse'\n", 2, "hard-sphere, ucg"},
                       BadModel{"KindIsNumber", "kind = 1\n", 1, "kind"},
                       BadModel{"UnknownKey", kind + "cut = 2.5\n" + species + pairs, 2, "unknown key 'cut': allowed are kind"},
                       BadModel{"EmptyName", kind + "name = ''\n" + species + pairs, 2, "name"},
