@@ -5,14 +5,15 @@
 
 namespace lanescape::kernels {
 
-// The pair potentials that kernels exist for, a line each: its file in kernels/forms/, which says what its coefficients mean, and the
-// class in it. The build reads these lines and compiles all loops over each form, once per instruction set.
+// The pair potentials that kernels exist for, a line each: its file in kernels/forms/, which says what its coefficients mean, and
+// the class in it. The build reads these lines and compiles all loops over each form, once per instruction set.
 #define LANESCAPE_PAIR_FORMS(FORM)  \
   FORM(lennard_jones, LennardJones) \
   FORM(even_powers, EvenPowers)     \
   FORM(yukawa, Yukawa)              \
   FORM(soft_sphere, SoftSphere)     \
-  FORM(polydisperse, Polydisperse)
+  FORM(polydisperse, Polydisperse)  \
+  FORM(twelve_six_four, TwelveSixFour)
 
 enum class PairForm : std::uint32_t {
 #define LANESCAPE_PAIR_FORM(name, Form) name,

@@ -186,7 +186,24 @@ struct Polydisperse {
   }
 };
 
-using PairForm = std::variant<LennardJones, Mie, InversePower, Yukawa, Harmonic, Hertzian, Polydisperse>;
+/// 4 epsilon [(sigma/r)^12 - (sigma/r)^6 - c4 (sigma/r)^4]
+struct TwelveSixFour {
+  double epsilon = 1.0;
+  double sigma = 1.0;
+  double c4 = 0.25;
+
+  PairValue at(double r) const {
+    return power(4.0 * epsilon, sigma, 12.0, r) + power(-4.0 * epsilon, sigma, 6.0, r) + power(-4.0 * epsilon * c4, sigma, 4.0, r);
+  }
+  double range() const { return unlimited; }
+  double tail(double r_c) const {
+    return power_tail(4.0 * epsilon, sigma, 12.0, r_c) + power_tail(-4.0 * epsilon, sigma, 6.0, r_c) +
+           power_tail(-4.0 * epsilon * c4, sigma, 4.0, r_c);
+  }
+  void check() const {}
+};
+
+using PairForm = std::variant<LennardJones, Mie, InversePower, Yukawa, Harmonic, Hertzian, Polydisperse, TwelveSixFour>;
 
 /// The form of a name with its numbers beside epsilon and sigma, in the order in which model files have them (docs/FORMATS.md). Throws
 /// std::invalid_argument for a name that is not here.
@@ -198,6 +215,7 @@ inline PairForm pair_form(std::string_view name, double epsilon, double sigma, s
   if (name == "yukawa") return Yukawa{epsilon, sigma, numbers[0]};
   if (name == "harmonic") return Harmonic{epsilon, sigma};
   if (name == "hertzian") return Hertzian{epsilon, sigma};
+  if (name == "lennard-jones-12-6-4") return TwelveSixFour{epsilon, sigma, numbers[0]};
   if (name == "polydisperse") return Polydisperse{epsilon, sigma, numbers[0]};
   throw std::invalid_argument("the reference has no pair potential '" + std::string(name) + "'");
 }

@@ -181,6 +181,33 @@ PairForm soft_sphere(const char* word) {
   return form;
 }
 
+// 4 epsilon [(sigma/r)^12 - (sigma/r)^6 - c4 (sigma/r)^4]: ions that polarise their neighbours.
+PairForm twelve_six_four() {
+  PairForm form;
+  form.word = "lennard-jones-12-6-4";
+  form.kernel = kernels::PairForm::twelve_six_four;
+  form.numbers = {{"c4", -10.0, 10.0, false, 0.25}};
+  form.derivatives = [](const PairNumbers& p, double r) -> PairDerivatives {
+    const double x2 = p.sigma * p.sigma / (r * r), fourth = p.form[0] * x2 * x2, sixth = x2 * x2 * x2, a = 4.0 * p.epsilon;
+    return {a * (sixth * sixth - sixth - fourth), a * (-12.0 * sixth * sixth + 6.0 * sixth + 4.0 * fourth),
+            a * (156.0 * sixth * sixth - 42.0 * sixth - 20.0 * fourth)};
+  };
+  form.tail = [](const PairNumbers& p, double x) -> PairTail {
+    const double x9 = std::pow(x, -9), x3 = std::pow(x, -3), x1 = p.form[0] / x, scale = 4.0 * p.epsilon * std::pow(p.sigma, 3);
+    return {scale * (x9 / 9.0 - x3 / 3.0 - x1), scale * (12.0 * x9 / 9.0 - 6.0 * x3 / 3.0 - 4.0 * x1)};
+  };
+  form.repulsive_distance = [](const PairNumbers& p, double energy) {
+    return p.sigma * std::pow(4.0 * p.epsilon / energy, 1.0 / 12.0);
+  };
+  form.coefficients = [](const PairNumbers& p, const PairCorrection& correction, double unit, Coefficients out) {
+    put_correction(correction, unit, out);
+    out[4] = 4.0 * p.epsilon;
+    out[5] = p.form[0];
+    out[6] = (p.sigma / unit) * (p.sigma / unit);
+  };
+  return form;
+}
+
 // epsilon [x^-12 + c0 + c2 x^2 + c4 x^4], x = r/sigma_ij below 1.25, where value, slope and curvature vanish. Diameters of
 // particles are in units of the model's sigma.
 PairForm polydisperse() {
@@ -209,7 +236,8 @@ PairForm polydisperse() {
 
 std::span<const PairForm> pair_forms() {
   static const std::vector<PairForm> forms = {
-      lennard_jones(), mie(), inverse_power(), yukawa(), soft_sphere<4>("harmonic"), soft_sphere<5>("hertzian"), polydisperse()};
+      lennard_jones(),  mie(), inverse_power(), yukawa(), soft_sphere<4>("harmonic"), soft_sphere<5>("hertzian"), polydisperse(),
+      twelve_six_four()};
   return forms;
 }
 

@@ -22,6 +22,7 @@ inline std::vector<NamedForm> all_forms() {
           {"inverse_power 2", InversePower{1.0, 1.2, 2}, 2.2},
           {"inverse_power 12", InversePower{0.9, 1.2, 12}, 1.5},
           {"inverse_power 64", InversePower{1.0, 1.0, 64}, 1.3},
+          {"12-6-4", TwelveSixFour{1.3, 0.9, 0.4}, 2.2},
           {"yukawa", Yukawa{2.0, 0.9, 1.7}, 3.0},
           {"harmonic", Harmonic{1.8, 1.1}, unlimited},
           {"hertzian", Hertzian{1.8, 0.9}, unlimited},
