@@ -2,14 +2,14 @@
 
 import unittest
 
-from cli_support import DATA, ARGON, TINY, LATTICE, PROPERTIES, HEADER, TWO, TWO_MOVED, OVERLAP, ProgramTest, frame
+from cli_support import DATA, ARGON, WARM, LATTICE, PROPERTIES, HEADER, TWO, TWO_MOVED, OVERLAP, ProgramTest, frame
 
 
 class BadFiles(ProgramTest):
     def every_reader_refuses(self, content, *says):
         file = self.file("bad.xyz", content)
         for arguments in (("energy", file), ("energy", file, "--backend", "reference"), ("path", "--pair", file),
-                          ("endpoints", "--start", file, *TINY)):
+                          ("endpoints", "--start", file, *WARM)):
             self.refused(*arguments, *ARGON, says=("bad.xyz", *says))
         self.refused_cleanly("path", "--pair", file, *ARGON, says="bad.xyz")
 
@@ -52,7 +52,7 @@ class BadFiles(ProgramTest):
 
     def test_overlapping_particles_are_refused_with_both_indices(self):
         file = self.file("bad.xyz", frame(*OVERLAP))
-        for arguments in (("energy", file), ("energy", file, "--backend", "reference"), ("endpoints", "--start", file, *TINY)):
+        for arguments in (("energy", file), ("energy", file, "--backend", "reference"), ("endpoints", "--start", file, *WARM)):
             self.refused_cleanly(*arguments, *ARGON, says="1 and 3")
         fine = ("Ar 1 1 1", "Ar 0 0 0", "Ar 2 2 2", "Ar 3 3 3")
         for content in (frame(*OVERLAP) + frame(*fine), frame(*fine) + frame(*OVERLAP)):

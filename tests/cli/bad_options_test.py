@@ -70,7 +70,7 @@ class BadOptions(ProgramTest):
         self.refused_cleanly("energy", file, "--precision", "single", says=("single", "double", "mixed"))
         self.refused_cleanly("energy", file, "--precision", "mixed", "--backend", "reference", says=("--precision", "reference"))
         for subcommand, arguments in (("energy", (file, "--images", "minimum")), ("endpoints", (*ARGON, *TINY)),
-                                      ("path", (*ARGON, *TINY)), ("diffusion", (*ARGON, *TINY))):
+                                      ("path", (*ARGON, *TINY)), ("diffusion", (*ARGON, "--particles", "8"))):
             self.refused_cleanly(subcommand, *arguments, "--precision", "mixed", says=("minimum-image", "mixed precision"))
 
     def test_plots_need_a_folder(self):

@@ -27,7 +27,8 @@ COMMON_OPTIONS = ("--help", "--seed", "--threads", "--isa", "--quiet", "--config
 PROTOCOL = ("--melt-steps", "500", "--cooling-steps", "500", "--check-steps", "500", "--check-tolerance", "50",
             "--settle-steps", "200", "--between-steps", "100")
 ARGON = ("--model", "lennard-jones", "--images", "minimum")
-TINY = ("--particles", "8", "--density", "0.8", "--temperature", "2", "--distance", "1") + PROTOCOL
+WARM = ("--temperature", "2", "--distance", "1") + PROTOCOL
+TINY = ("--particles", "8", "--density", "0.8") + WARM
 FLUID = ("--particles", "32", "--density", "0.8", "--temperature", "1", "--distance", "5") + PROTOCOL
 
 # Insertion: a scan of its cost, and growth of a density, both short.

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy
 
-from cli_support import PROGRAM, ARGON, TINY, ProgramTest, environment, frame, lanescape, one_object, with_options
+from cli_support import PROGRAM, ARGON, TINY, WARM, ProgramTest, environment, frame, lanescape, one_object, with_options
 
 
 class EndPoints(ProgramTest):
@@ -38,7 +38,7 @@ class EndPoints(ProgramTest):
     def test_a_start_configuration_is_taken_from_a_file(self):
         start = self.file("start.xyz", frame(*[f"Ar {x} {y} {z}" for x in (0, 2) for y in (0, 2) for z in (0, 2)]))
         out = self.folder / "run"
-        self.done("endpoints", *ARGON, *TINY, "--start", start, "--out", out)
+        self.done("endpoints", *ARGON, *WARM, "--start", start, "--out", out)
         self.assertIn('Lattice="4 0 0 0 4 0 0 0 4"', (out / "pair-0001.extxyz").read_text())
 
     def test_a_distance_beyond_the_steps_allowed_is_a_goal_not_reached(self):

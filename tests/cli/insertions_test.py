@@ -70,7 +70,7 @@ class Insertions(ProgramTest):
                                 ((self.fluid, "--energy", "inf"), "energy"), ((self.fluid, "--energy", "deep"), ("deep", "mean")),
                                 ((self.fluid, "--method", "newton"), ("newton", "usher, usher-indirect")),
                                 ((self.fluid, "--species", "Xx"), ("Xx", "Ar")), ((self.fluid, "--most-trials", "0"), "trials"),
-                                ((self.fluid, "--largest-step", "0"), "step"), ((self.fluid, "--removal", "all"), ("all", "random")),
+                                ((self.fluid, "--largest-step", "0"), "step"), ((self.fluid, "--remove", "1", "--removal", "all"), ("all", "random")),
                                 ((self.fluid, "--temperature", "-1"), "temperature"), ((empty,), "empty"), ((), "FILE"),
                                 (("--scan", "--states", "0.4"), "density:temperature"), (("--scan", "--states", "-0.4:1"), "density"),
                                 (("--scan", "--states", "0.4:0"), "temperature"), (("--scan", "--methods", "usher,,descent"), "--methods"),

@@ -4,7 +4,7 @@ import json
 import shutil
 import unittest
 
-from cli_support import DATA, ARGON, TINY, FLUID, TWO, TWO_MOVED, ProgramTest, contents, frame, with_options, without_seconds
+from cli_support import DATA, ARGON, TINY, WARM, FLUID, TWO, TWO_MOVED, ProgramTest, contents, frame, with_options, without_seconds
 
 
 class RunFiles(ProgramTest):
@@ -93,7 +93,7 @@ class OutputFolders(ProgramTest):
     def test_what_a_refused_run_finds_in_its_folder_stays(self):
         self.file("note.txt", "mine")
         two = self.file("two.xyz", frame(*TWO))
-        self.refused("endpoints", *ARGON, *TINY, "--start", two, "--cutoff", "1000", "--images", "all", "--out", self.folder)
+        self.refused("endpoints", *ARGON, *WARM, "--start", two, "--cutoff", "1000", "--images", "all", "--out", self.folder)
         self.assertEqual(sorted(f.name for f in self.folder.iterdir()), ["note.txt", "two.xyz"])
 
 

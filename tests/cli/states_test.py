@@ -92,7 +92,7 @@ class States(ProgramTest):
         self.refused_cleanly("energy", file, "--model", "ucg", "--model-file", lennard_jones, says=("ucg", "another kind"))
         self.refused_cleanly("energy", file, *ARGON, "--states", says=("--states", "ucg"))
         self.refused_cleanly("verify", file, "--model", "ucg", says=("verify", "sites with states"))
-        self.refused_cleanly("diffusion", "--model", "ucg", *FLUID, says=("diffusion", "ucg"))
+        self.refused_cleanly("diffusion", "--model", "ucg", says=("diffusion", "ucg"))
         self.refused_cleanly("energy", self.file("close.extxyz", frame("Ar 0 0 0", "Ar 0.2 0 0")), "--model", "ucg", says=("close.extxyz", "overlap"))
 
 

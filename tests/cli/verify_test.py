@@ -3,7 +3,7 @@
 import unittest
 import xml.etree.ElementTree
 
-from cli_support import DATA, ARGON, OVERLAP, ProgramTest, frame
+from cli_support import DATA, OVERLAP, ProgramTest, frame
 
 
 class Verify(ProgramTest):
@@ -34,7 +34,7 @@ class Verify(ProgramTest):
 
     def test_bad_files_are_refused(self):
         self.refused_cleanly("verify", self.folder / "missing.xyz", says="missing.xyz")
-        self.refused_cleanly("verify", self.file("o.xyz", frame(*OVERLAP)), *ARGON, says=("o.xyz", "1 and 3"))
+        self.refused_cleanly("verify", self.file("o.xyz", frame(*OVERLAP)), "--model", "lennard-jones", says=("o.xyz", "1 and 3"))
         self.refused_cleanly("verify", "--junit", "/proc/junit.xml", says="/proc/junit.xml")
 
 

@@ -104,12 +104,11 @@ void write_curves(OutputFolder& folder, const DiffusionAccumulator& d, const Mix
   });
 }
 
-Json run_diffusion_command(DiffusionState& state, const Options& options, int& status) {
+Json run_diffusion_command(DiffusionState& state, Options& options, int& status) {
   state.common.check();
   const Isa isa = state.common.resolve_isa();
   const Model model = state.system.resolve();
-  if (state.plot && state.common.out.empty() && state.common.resume.empty())
-    throw_bad_input("--plot needs --out: the plots are files");
+  options.settle(joined({state.system.kinds(model), state.setup.kinds(false), {state.common.folder_kind()}}));
   state.setup.settle(model);
   const Configuration start = state.setup.start(model, state.common, isa);
   state.system.check_precision_in(model, start.box);
@@ -148,8 +147,12 @@ Subcommand add_diffusion(CLI::App& app) {
   options->add("--records", state->records, "of a trajectory [source's; soft 11000]");
   options->add("--trajectories", state->trajectories, "[5; mixtures of hard spheres 10]");
   options->add("--between", state->between, "steps or collisions between trajectories [100000; mixtures of hard spheres 200000]");
-  options->add_flag("--plot", state->plot, "draw the curves (needs --out)");
+  options->add_flag("--plot", state->plot, "draw the curves (needs --out)").only_for({runs_with_a_folder});
   state->setup.add_to(*options);
+  state->setup.add_tolerance_to(*options);
+  for (const char* of_pairs : {"--distance", "--distance-species", "--pairs", "--between-steps", "--max-pair-steps",
+                               "--between-collisions", "--max-pair-collisions"})
+    options->at(of_pairs).refused("with diffusion, which makes no pairs: it is for endpoints and path");
   state->system.add_to(*options);
   state->common.add_to(*options);
   return {sub, [=](int& status) { return run_diffusion_command(*state, *options, status); }};

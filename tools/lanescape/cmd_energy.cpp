@@ -93,6 +93,8 @@ Json to_json(const EnergyResult& e, const Configuration& configuration, const Mo
   return result;
 }
 
+constexpr Scope models_with_states{"states", "models of kind ucg, which have states"};
+
 struct EnergyState {
   CommonOptions common;
   SystemOptions system;
@@ -106,13 +108,14 @@ struct EnergyState {
       mixture_of(model).name));
 }
 
-Json run_energy(EnergyState& state, const Options& options) {
+Json run_energy(EnergyState& state, Options& options) {
   state.common.check();
   const Isa isa = state.common.resolve_isa();
   const Model model = state.system.resolve();
+  options.settle(joined({state.system.kinds(model),
+                         {kind_if(traits_of(model).has_states, models_with_states, "with states",
+                                  fmt::format("with model {}", mixture_of(model).name))}}));
   if (is_hard(model)) refuse_hard_spheres(model);
-  if (state.states && !traits_of(model).has_states)
-    throw_bad_input(fmt::format("--states is not allowed with model {}: models of kind ucg have states", mixture_of(model).name));
   if (state.backend != "simd" && state.backend != "reference")
     throw_bad_input(fmt::format("--backend: '{}' is not allowed: simd or reference", state.backend));
   const Precision precision = state.system.resolve_precision();
@@ -143,11 +146,13 @@ Subcommand add_energy(CLI::App& app) {
   CLI::App* sub = app.add_subcommand("energy", "Potential energy, virial, stress and forces of a configuration");
   const auto options = std::make_shared<Options>(*sub);
   const auto state = std::make_shared<EnergyState>();
-  options->add_positional("FILE", state->file, "extended XYZ; of several frames the first is used")->required();
+  options->add_positional("FILE", state->file, "extended XYZ; of several frames the first is used").required();
   options->add_flag("--forces", state->forces, "list the forces too");
-  options->add_flag("--states", state->states, "list local densities and state probabilities too (ucg)");
+  options->add_flag("--states", state->states, "list local densities and state probabilities too (ucg)")
+      .only_for({models_with_states});
   options->add("--backend", state->backend, "simd, or the scalar reference");
   state->system.add_to(*options);
+  options->at("--composition").refused("with energy: it is for starts that are made");
   state->common.add_to(*options);
   return {sub, [=](int&) { return run_energy(*state, *options); }};
 }

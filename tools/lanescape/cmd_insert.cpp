@@ -12,6 +12,40 @@
 namespace lanescape::program {
 namespace {
 
+// Modes.
+constexpr Scope into_file{"mode", "insertions into FILE without --scan and --densify"}, scans{"mode", "--scan"},
+    growth{"mode", "--densify"};
+// Parts of a mode.
+constexpr Scope made_fluids{"fluid", "fluids that are made, without FILE"}, removals{"removal", "--remove"},
+    holes{"holes", "--holes"}, regions{"region", "--region"},
+    searches_by_method{"search", "FILE, --densify and --holes; --methods is for scans"},
+    searches_by_tolerance{"tolerance", "FILE, --densify, --holes, and scans without --tolerances"},
+    descents{"descent", "method descent"}, screened_starts{"screened", "method screened"};
+
+RunKinds kinds_of(const InsertState& state) {
+  const RunKind mode = state.scan      ? RunKind{scans, "with --scan"}
+                       : state.densify ? RunKind{growth, "with --densify"}
+                                       : RunKind{into_file, "without --scan and --densify"};
+  // Searches besides those of a scan's own combinations.
+  const bool others = !state.scan || state.holes > 0 || state.traced_searches > 0;
+  const auto uses = [&](const char* method) {
+    bool used = others && state.setup.method == method;
+    if (state.scan)
+      for (const std::string& name : list_of(state.methods, "--methods")) used = used || name == method;
+    return used;
+  };
+  return {mode,
+          state.common.folder_kind(),
+          kind_if(state.file.empty(), made_fluids, "without FILE", "with FILE"),
+          kind_if(state.remove > 0, removals, "with --remove", "without --remove"),
+          kind_if(state.holes > 0, holes, "with --holes", "without --holes"),
+          kind_if(!state.setup.region.empty(), regions, "with --region", "without --region"),
+          kind_if(others, searches_by_method, "without --scan", "with --scan"),
+          kind_if(others || state.tolerances.empty(), searches_by_tolerance, "without --tolerances", "with --tolerances"),
+          kind_if(uses("descent"), descents, "with method descent", "without method descent"),
+          kind_if(uses("screened"), screened_starts, "with method screened", "without method screened")};
+}
+
 double mean_excess_energy(const PairModel& model, const Configuration& fluid, Isa isa) {
   const ParticleLayout layout = ParticleLayout::in_space_order(fluid, model.species.size());
   return PairInteraction(model, fluid.box, layout, kernel_table(isa)).energy(layout.to_slots(fluid.positions)) /
@@ -82,7 +116,7 @@ void remove_from(Configuration& fluid, const InsertState& state, const PairModel
   }
 }
 
-Json run_exchange(InsertState& state, const Options& options, const PairModel& model, Isa isa, int& status) {
+Json run_exchange(InsertState& state, Options& options, const PairModel& model, Isa isa, int& status) {
   if (state.file.empty()) throw_bad_input("FILE is needed: the fluid to insert into; without one, --scan or --densify");
   Configuration fluid = read_first_frame(state.file, model);
   if (fluid.size() == 0)
@@ -125,23 +159,56 @@ Json run_exchange(InsertState& state, const Options& options, const PairModel& m
   return result;
 }
 
-Json run_insert(InsertState& state, const Options& options, int& status) {
+Json run_insert(InsertState& state, Options& options, int& status) {
   state.common.check();
   const Isa isa = state.common.resolve_isa();
   const PairModel model = state.system.resolve_pair_model("insert");
   if (model.form->has_diameters)
     throw_bad_input(fmt::format("insert: model {} is not allowed: its particles have diameters of their own", model.name));
-  if (state.system.precision) throw_bad_input("--precision is not allowed with insert: probes are in double precision");
-  if (state.plot && state.common.out.empty() && state.common.resume.empty())
-    throw_bad_input("--plot needs --out: the plots are files");
   if (state.scan && state.densify) throw_bad_input("--scan and --densify are not allowed together");
-  if (state.plot && !state.scan && !state.densify)
-    throw_bad_input("--plot needs --scan or --densify: single insertions have no plot");
+  options.settle(joined({state.system.kinds(model), kinds_of(state)}));
   Json result = state.scan      ? run_scan(state, options, model, isa, status)
                 : state.densify ? run_growth(state, options, model, isa, status)
                                 : run_exchange(state, options, model, isa, status);
   if (state.plot) draw_plots(state.common.out.empty() ? state.common.resume : state.common.out, state.common);
   return result;
+}
+
+void add_search_options(Options& options, InsertState& state) {
+  state.setup.add_to(options);
+  options.at("--energy").only_for({into_file, scans});
+  options.at("--tolerance").only_for({searches_by_tolerance});
+  options.at("--method").only_for({searches_by_method});
+  options.at("--traverse-step").only_for({descents});
+  options.at("--clear-energy").only_for({screened_starts});
+  options.at("--wall").only_for({regions});
+}
+
+void add_growth_options(Options& options, InsertState& state) {
+  options.add("--densify", state.densify,
+              "up to this density at constant energy per particle, by molecular dynamics and insertion");
+  options.begin_group({growth});
+  options.add("--rate", state.rate, "of --densify: density per time");
+  options.add("--rows", state.rows, "of --densify: means over so many steps of density");
+  options.add("--density", state.density, "of --densify without FILE: where it begins [0.4]").only_for({made_fluids});
+  options.end_group();
+}
+
+void add_scan_options(Options& options, InsertState& state) {
+  options.add_flag("--scan", state.scan, "what insertion costs at several densities and temperatures");
+  options.begin_group({scans});
+  options.add("--states", state.states, "of --scan: density:temperature,...");
+  options.add("--methods", state.methods, "of --scan: words of --method between commas");
+  options.add("--tolerances", state.tolerances, "of --scan: numbers between commas [--tolerance]");
+  options.add("--largest-steps", state.largest_steps, "of --scan: numbers between commas, or default");
+  options.add("--configurations", state.configurations, "of --scan, per state");
+  options.add("--between-steps", state.between_steps, "of --scan, between configurations");
+  options.add("--widom-probes", state.widom_probes, "of --scan, per configuration, for the chemical potential");
+  options.add("--holes", state.holes, "of --scan, per configuration: regions of low energy to measure");
+  options.add("--iso-energies", state.iso_energies, "of --holes: energies at their surface").only_for({holes});
+  options.add("--traced-searches", state.traced_searches, "of --scan, per configuration: how errors shrink, for errors.csv")
+      .only_for({runs_with_a_folder});
+  options.end_group();
 }
 
 }  // namespace
@@ -150,33 +217,28 @@ Subcommand add_insert(CLI::App& app) {
   CLI::App* sub = app.add_subcommand("insert", "Insert particles where their energy has a given value (USHER), and remove some");
   const auto options = std::make_shared<Options>(*sub);
   const auto state = std::make_shared<InsertState>();
-  options->add_positional("FILE", state->file, "extended XYZ; of several frames the first is used");
-  options->add("--count", state->count, "particles to insert; of a scan, places per configuration and combination");
-  state->setup.add_to(*options);
-  options->add("--remove", state->remove, "particles of the species to take out of the region afterwards");
-  options->add("--removal", state->removal, "random, or least-disturbance: whose energy is nearest to --energy");
-  options->add("--temperature", state->temperature, "gives inserted particles Maxwellian velocities; of --densify [2.5]");
-  options->add("--densify", state->densify,
-               "up to this density at constant energy per particle, by molecular dynamics and insertion");
-  options->add("--rate", state->rate, "of --densify: density per time");
-  options->add("--rows", state->rows, "of --densify: means over so many steps of density");
-  options->add("--density", state->density, "of --densify without FILE: where it begins [0.4]");
-  options->add_flag("--scan", state->scan, "what insertion costs at several densities and temperatures");
-  options->add("--states", state->states, "of --scan: density:temperature,...");
-  options->add("--methods", state->methods, "of --scan");
-  options->add("--tolerances", state->tolerances, "of --scan [--tolerance]");
-  options->add("--largest-steps", state->largest_steps, "of --scan, or default");
-  options->add("--configurations", state->configurations, "of --scan, per state");
-  options->add("--between-steps", state->between_steps, "of --scan, between configurations");
-  options->add("--widom-probes", state->widom_probes, "of --scan, per configuration, for the chemical potential");
-  options->add("--holes", state->holes, "of --scan, per configuration: regions of low energy to measure");
-  options->add("--iso-energies", state->iso_energies, "of --holes: energies at their surface");
-  options->add("--traced-searches", state->traced_searches, "of --scan, per configuration: how errors shrink, for errors.csv");
-  options->add("--particles", state->particles, "of --scan and --densify without FILE");
-  options->add("--equilibration-steps", state->equilibration_steps, "of --scan and --densify");
-  options->add("--time-step", state->time_step, "of --scan and --densify");
-  options->add_flag("--plot", state->plot, "draw the figures of --scan or --densify (needs --out)");
+  options->add_positional("FILE", state->file, "extended XYZ; of several frames the first is used").only_for({into_file, growth});
+  options->add("--count", state->count, "particles to insert; of --scan, places per configuration and combination")
+      .only_for({into_file, scans});
+  add_search_options(*options, *state);
+  options->add("--remove", state->remove, "particles of the species to take out of the region afterwards").only_for({into_file});
+  options->add("--removal", state->removal, "random, or least-disturbance: whose energy is nearest to --energy")
+      .only_for({into_file})
+      .only_for({removals});
+  options->add("--temperature", state->temperature, "gives inserted particles Maxwellian velocities; of --densify [2.5]")
+      .only_for({into_file, growth});
+  add_growth_options(*options, *state);
+  add_scan_options(*options, *state);
+  options->add("--particles", state->particles, "of --scan and --densify without FILE")
+      .only_for({scans, growth})
+      .only_for({made_fluids});
+  options->add("--equilibration-steps", state->equilibration_steps, "of --scan and --densify").only_for({scans, growth});
+  options->add("--time-step", state->time_step, "of --scan and --densify").only_for({scans, growth});
+  options->add_flag("--plot", state->plot, "draw the figures of --scan or --densify (needs --out)")
+      .only_for({scans, growth})
+      .only_for({runs_with_a_folder});
   state->system.add_to(*options);
+  options->at("--precision").refused("with insert: probes are in double precision");
   state->common.add_to(*options);
   return {sub, [=](int& status) { return run_insert(*state, *options, status); }};
 }

@@ -15,6 +15,11 @@
 namespace lanescape::program {
 namespace {
 
+constexpr Scope made_pairs{"pairs", "runs that make their end points, without --pair"};
+// What the steps of a method know.
+constexpr Scope direct_steps_of_a_length{"direct steps", "contour, escape and avoidance: the steps of away end at contacts"};
+constexpr Scope collision_avoidance{"method", "method avoidance"};
+
 struct PathState {
   CommonOptions common;
   SystemOptions system;
@@ -29,11 +34,6 @@ struct PathState {
     PathRunOptions options;
     options.method = parse_path_method(method.value_or(is_hard(model) ? "avoidance" : "contour"));
     check_method(options.method, model);
-    if (options.method != PathMethod::avoidance && (avoidance_step || fictitious))
-      throw_bad_input(fmt::format("{} is not allowed with method {}: it is for avoidance",
-                                  avoidance_step ? "--avoidance-step" : "--fictitious", to_string(options.method)));
-    if (options.method == PathMethod::away && step)
-      throw_bad_input("--step is not allowed with method away: its steps end at contacts");
     options.direct_step = step;
     options.avoidance_step = avoidance_step.value_or(options.avoidance_step);
     if (fictitious) options.fictitious = parse_contact_potential(*fictitious);
@@ -43,8 +43,16 @@ struct PathState {
     options.finder.frames = frames;
     options.threads = common.threads;
     options.precision = system.resolve_precision();
-    options.check();
     return options;
+  }
+
+  RunKinds kinds(const Model& model, PathMethod of_method) const {
+    const std::string with = fmt::format("with method {}", to_string(of_method));
+    return joined({{kind_if(pair_files.empty(), made_pairs, "without --pair", "with --pair")},
+                   setup.kinds(!pair_files.empty()),
+                   system.kinds(model),
+                   {common.folder_kind(), kind_if(of_method == PathMethod::avoidance, collision_avoidance, with, with),
+                    kind_if(of_method != PathMethod::away, direct_steps_of_a_length, with, with)}});
   }
 };
 
@@ -208,60 +216,74 @@ bool add_paths(Json& json, const std::vector<PathResult>& paths, PathMethod meth
   return std::all_of(paths.begin(), paths.end(), [](const PathResult& path) { return path.outcome == Outcome::reached; });
 }
 
-// `setup_options` are those that end points are made with: not part of a run whose pairs come from files.
-Json run_path(PathState& state, const Options& options, const Options& setup_options, int& status) {
+// The pairs between which paths are searched: made, kept from an interrupted run, or those of files, of which copies are kept.
+struct Ends {
+  std::vector<ConfigurationPair> pairs;
+  Json json;  // of end points made here
+  bool all = true;
+};
+
+Ends take_ends(const PathState& state, const Model& model, PathInput&& input, Precision precision, Isa isa, OutputFolder& folder) {
+  if (state.pair_files.empty()) {
+    EndPoints made = make_end_points(model, input.start, input.protocol, isa, folder, state.common, precision);
+    return {std::move(made.run.pairs), std::move(made.json), made.reached};
+  }
+  if (!state.common.resume.empty()) return {read_kept_pairs(folder, model, state.setup.overlap_tolerance()), Json(), true};
+  for (std::size_t k = 0; k < input.pairs.size(); ++k) write_pair(folder, k, input.pairs[k], mixture_of(model));
+  return {std::move(input.pairs), Json(), true};
+}
+
+// What stands beside the paths.
+void add_system(Json& json, const PathState& state, const Model& model, const std::vector<ConfigurationPair>& pairs, Isa isa) {
+  json["model"] = mixture_of(model).name;
+  if (!is_hard(model))
+    json["images"] = to_string(traits_of(model).images);
+  else if (state.setup.radius_factor())
+    json["radius_factor"] = *state.setup.radius_factor();
+  else if (!state.pair_files.empty())
+    json["radius_factor"] = std::min_element(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) {
+                              return a.radius_factor < b.radius_factor;
+                            })->radius_factor;
+  json["isa"] = to_string(isa);
+  if (traits_of(model).has_precision) json["precision"] = to_string(state.system.resolve_precision());
+}
+
+// Everything the run needs, checked before there is a folder.
+PathInput prepare(PathState& state, Options& options, const Model& model, const PathRunOptions& path_options, Isa isa) {
+  options.settle(state.kinds(model, path_options.method));
+  path_options.check();
+  state.method = to_string(path_options.method);
+  if (path_options.method != PathMethod::away) state.step = path_options.step_length();
+  const bool makes_pairs = state.pair_files.empty();
+  if (makes_pairs) state.setup.settle(model);
+  PathInput input = read_input(state, model, isa);
+  if (makes_pairs) state.system.check_precision_in(model, input.start.box);
+  for (const ConfigurationPair& pair : input.pairs) state.system.check_precision_in(model, pair.start.box, path_skin);
+  return input;
+}
+
+Json run_path(PathState& state, Options& options, int& status) {
   state.common.check();
   const Isa isa = state.common.resolve_isa();
   const Model model = state.system.resolve();
-  const Mixture& mixture = mixture_of(model);
   const PathRunOptions path_options = state.run_options(model);
-  const bool resumed = !state.common.resume.empty(), from_files = !state.pair_files.empty();
-  if (state.plot && state.common.out.empty() && !resumed) throw_bad_input("--plot needs --out: the plots are files");
-  state.method = to_string(path_options.method);
-  if (path_options.method != PathMethod::away) state.step = path_options.step_length();
-  if (!from_files) state.setup.settle(model);
-  PathInput input = read_input(state, model, isa);
-  if (!from_files) state.system.check_precision_in(model, input.start.box);
-  for (const ConfigurationPair& pair : input.pairs) state.system.check_precision_in(model, pair.start.box, path_skin);
-  toml::table resolved = options.resolved();
-  if (!from_files)
-    for (auto& [key, value] : setup_options.resolved()) resolved.insert_or_assign(key, value);
+  PathInput input = prepare(state, options, model, path_options, isa);
 
   OutputFolder folder = open_folder(state.common);
-  folder.write_run_file("path", resolved);
+  folder.write_run_file("path", options.resolved());
+  Ends ends = take_ends(state, model, std::move(input), path_options.precision, isa, folder);
   Json result;
-  bool ends_made = true;
-  if (!from_files) {
-    EndPoints ends = make_end_points(model, input.start, input.protocol, isa, folder, state.common, path_options.precision);
-    input.pairs = ends.run.pairs;
-    ends_made = ends.reached;
-    result["endpoints"] = std::move(ends.json);
-  } else if (resumed) {
-    input.pairs = read_kept_pairs(folder, model, state.setup.overlap_tolerance());
-  } else {
-    for (std::size_t k = 0; k < input.pairs.size(); ++k) write_pair(folder, k, input.pairs[k], mixture);
-  }
-
+  if (!ends.json.is_null()) result["endpoints"] = std::move(ends.json);
   std::vector<PathResult> paths;
-  if (ends_made) {
+  if (ends.all) {
     TerminalMonitor monitor(state.common.quiet);
-    paths = run_paths(model, input.pairs, path_options, isa, {folder.checkpoints(), resumed}, monitor);
+    paths = run_paths(model, ends.pairs, path_options, isa, {folder.checkpoints(), !state.common.resume.empty()}, monitor);
   }
-  const bool all_reached = add_paths(result, paths, path_options.method, mixture) && ends_made;
-  result["model"] = mixture.name;
-  if (!is_hard(model))
-    result["images"] = to_string(traits_of(model).images);
-  else if (state.setup.radius_factor())
-    result["radius_factor"] = *state.setup.radius_factor();
-  else if (from_files)
-    result["radius_factor"] = std::min_element(input.pairs.begin(), input.pairs.end(), [](const auto& a, const auto& b) {
-                                return a.radius_factor < b.radius_factor;
-                              })->radius_factor;
-  result["isa"] = to_string(isa);
-  if (traits_of(model).has_precision) result["precision"] = to_string(path_options.precision);
+  const bool all_reached = add_paths(result, paths, path_options.method, mixture_of(model)) && ends.all;
+  add_system(result, state, model, ends.pairs, isa);
   status = all_reached ? done : goal_not_reached;
-  if (folder.exists()) write_files(folder, paths, path_options.method, mixture);
-  write_result(folder, "path", resolved, result);
+  if (folder.exists()) write_files(folder, paths, path_options.method, mixture_of(model));
+  write_result(folder, "path", options.resolved(), result);
   if (state.plot) draw_plots(folder.path(), state.common);
   return result;
 }
@@ -278,20 +300,26 @@ Subcommand add_path(CLI::App& app) {
   sub->add_flag_function(
          "--faithful", [](std::int64_t) {}, "steps exactly as in the source (the default)")
       ->disable_flag_override();
-  options->add("--step", state->step, "length of a direct step in 3N space [sigma] [0.001; hard spheres 0.01]");
-  options->add("--avoidance-step", state->avoidance_step,
-               "of each particle that moves in a collision-avoidance step [sigma] [0.0001]");
-  options->add("--fictitious", state->fictitious, "potential between overlapping spheres: harmonic, linear or cubic [harmonic]");
-  options->add("--landscape-energy", state->landscape_energy, "E_L [the higher energy of the two end points]");
+  options->add("--step", state->step, "length of a direct step in 3N space [sigma] [0.001; hard spheres 0.01]")
+      .only_for({direct_steps_of_a_length});
+  options
+      ->add("--avoidance-step", state->avoidance_step, "of each particle that moves in a collision-avoidance step [sigma] [0.0001]")
+      .only_for({collision_avoidance});
+  options->add("--fictitious", state->fictitious, "potential between overlapping spheres: harmonic, linear or cubic [harmonic]")
+      .only_for({collision_avoidance});
+  options->add("--landscape-energy", state->landscape_energy, "E_L [the higher energy of the two end points]")
+      .only_for({soft_models});
   options->add_flag("--reverse", state->reverse, "search from the far end too and keep the shorter path");
   options->add("--max-steps", state->max_steps, "steps of one path before giving up");
-  options->add("--frames", state->frames, "configurations of each path to keep between its ends");
-  options->add_flag("--plot", state->plot, "draw the path and the equilibration (needs --out)");
-  const auto setup_options = std::make_shared<Options>(*sub);
-  state->setup.add_to(*setup_options);
+  options->add("--frames", state->frames, "configurations of each path to write between its ends").only_for({runs_with_a_folder});
+  options->add_flag("--plot", state->plot, "draw the path and the equilibration (needs --out)").only_for({runs_with_a_folder});
+  options->begin_group({made_pairs});
+  state->setup.add_to(*options);
+  options->end_group();
+  state->setup.add_tolerance_to(*options);
   state->system.add_to(*options);
   state->common.add_to(*options);
-  return {sub, [=](int& status) { return run_path(*state, *options, *setup_options, status); }};
+  return {sub, [=](int& status) { return run_path(*state, *options, status); }};
 }
 
 }  // namespace lanescape::program

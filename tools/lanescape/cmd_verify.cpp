@@ -27,6 +27,8 @@ void add_files(std::vector<PairCase>& cases, const std::vector<std::string>& fil
     }
 }
 
+constexpr Scope runs_with_files{"files", "checks on FILES"};
+
 struct VerifyState {
   CommonOptions common;
   SystemOptions system;
@@ -53,11 +55,14 @@ Json to_json(const std::vector<Deviation>& deviations, const std::vector<Isa>& i
   return result;
 }
 
-Json run_verify(VerifyState& state, const Options& options, int& status) {
+Json run_verify(VerifyState& state, Options& options, int& status) {
   state.common.check();
   // One instruction set, where a flag or LANESCAPE_ISA names it, or all that are here.
   const bool forced = forced_isa(state.common.isa).has_value();
   const std::vector<Isa> isas = forced ? std::vector{state.common.resolve_isa()} : available_isas();
+  const Model model = state.system.resolve();
+  options.settle(
+      joined({state.system.kinds(model), {kind_if(!state.files.empty(), runs_with_files, "with FILES", "without FILES")}}));
   std::vector<PairCase> cases = pair_cases();
   add_files(cases, state.files, state.system.resolve_pair_model("verify"));
   OutputFolder folder = open_folder(state.common);
@@ -88,6 +93,11 @@ Subcommand add_verify(CLI::App& app) {
   options->add_positional("FILES", state->files, "extended XYZ files to check on besides the built-in cases");
   options->add("--junit", state->junit, "also write the results to this file as JUnit XML");
   state->system.add_to(*options);
+  options->at("--composition").refused("with verify: it is for starts that are made");
+  for (const char* of_model : {"--model", "--model-file", "--cutoff", "--truncation"})
+    options->at(of_model).only_for({runs_with_files});
+  options->at("--images").refused("with verify: it checks both image rules, all and minimum");
+  options->at("--precision").refused("with verify: it checks both precisions, double and mixed");
   state->common.add_to(*options);
   return {sub, [=](int& status) { return run_verify(*state, *options, status); }};
 }

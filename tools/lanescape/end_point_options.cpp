@@ -15,33 +15,64 @@
 
 namespace lanescape::program {
 
+namespace {
+
+constexpr Scope made_starts{"start", "runs that make their start, without --start"};
+constexpr Scope sphere_files{"sphere file", "spheres of a file"};
+
+}  // namespace
+
 void EndPointSetup::add_to(Options& options) {
-  options.add("--particles", particles_, "number of particles N");
-  options.add("--density", density_, "number density of a soft model [sigma^-3] [1.2]");
-  options.add("--temperature", temperature_, "temperature of a soft model [epsilon/k_B] [1]");
-  options.add("--packing-fraction", packing_fraction_, "of hard spheres [0.5]");
-  options.add("--start-method", start_method_, "of hard spheres: auto, lattice, contraction or growth [auto]");
+  options.add("--particles", particles_, "number of particles N").only_for({made_starts});
+  options.add("--density", density_, "number density of a soft model [sigma^-3] [1.2]")
+      .only_for({soft_models})
+      .only_for({made_starts});
+  options.add("--temperature", temperature_, "temperature of a soft model [epsilon/k_B] [1]").only_for({soft_models});
+  options.add("--packing-fraction", packing_fraction_, "of hard spheres [0.5]").only_for({hard_spheres}).only_for({made_starts});
+  options.add("--start-method", start_method_, "of hard spheres: auto, lattice, contraction or growth [auto]")
+      .only_for({hard_spheres})
+      .only_for({made_starts});
   options.add("--distance", distance_, "distance between the ends of a pair [sigma] [108 at N = 108, else 10 sqrt(N)]");
   options.add("--distance-species", distance_species_, "count only this species' motion towards the distance");
   options.add("--pairs", pairs_, "number of pairs [1]");
   options.add("--start", start_file_, "start from this configuration instead of an fcc crystal (its first frame)");
   options.add_flag("--quick", quick_, "short equilibration, to try things out");
-  options.add("--time-step", time_step_, "of molecular dynamics [0.001]");
-  options.add("--melt-temperature", melt_temperature_, "[5]");
-  options.add("--melt-steps", melt_steps_, "[200000; quick 20000]");
-  options.add("--cooling-steps", cooling_steps_, "[1000000; quick 50000]");
-  options.add("--rescale-interval", rescale_interval_, "steps between velocity scalings while melting and cooling [1000]");
-  options.add("--check-steps", check_steps_, "of the temperature check, without thermostat [1000000; quick 50000]");
-  options.add("--check-interval", check_interval_, "steps between temperature samples [100]");
-  options.add("--check-tolerance", check_tolerance_, "largest deviation of the mean temperature [0.005; quick 0.02]");
-  options.add("--max-checks", max_checks_, "temperature checks before giving up [100]");
-  options.add("--settle-steps", settle_steps_, "before the first pair [1000000; quick 50000]");
-  options.add("--between-steps", between_steps_, "between pairs [100000; quick 20000]");
-  options.add("--max-pair-steps", max_pair_steps_, "of one pair before giving up [1000000000]");
-  options.add("--equilibration-collisions", equilibration_collisions_, "of hard spheres [10000000; quick 200000]");
-  options.add("--between-collisions", between_collisions_, "of hard spheres between pairs [100000; quick 20000]");
-  options.add("--max-pair-collisions", max_pair_collisions_, "of one pair of hard spheres before giving up [1000000000000]");
-  options.add("--overlap-tolerance", overlap_tolerance_, "of hard spheres in files, in units of s_ij: up to it radii are scaled");
+  add_soft_protocol_to(options);
+  options.add("--equilibration-collisions", equilibration_collisions_, "of hard spheres [10000000; quick 200000]")
+      .only_for({hard_spheres});
+  options.add("--between-collisions", between_collisions_, "of hard spheres between pairs [100000; quick 20000]")
+      .only_for({hard_spheres});
+  options.add("--max-pair-collisions", max_pair_collisions_, "of one pair of hard spheres before giving up [1000000000000]")
+      .only_for({hard_spheres});
+}
+
+void EndPointSetup::add_soft_protocol_to(Options& options) {
+  const auto add = [&](const char* name, auto& value, const char* description) {
+    options.add(name, value, description).only_for({soft_models});
+  };
+  add("--time-step", time_step_, "of molecular dynamics [0.001]");
+  add("--melt-temperature", melt_temperature_, "temperature at which the crystal melts [5]");
+  add("--melt-steps", melt_steps_, "steps at the melt temperature [200000; quick 20000]");
+  add("--cooling-steps", cooling_steps_, "steps from the melt temperature to --temperature [1000000; quick 50000]");
+  add("--rescale-interval", rescale_interval_, "steps between velocity scalings while melting and cooling [1000]");
+  add("--check-steps", check_steps_, "of the temperature check, without thermostat [1000000; quick 50000]");
+  add("--check-interval", check_interval_, "steps between temperature samples [100]");
+  add("--check-tolerance", check_tolerance_, "largest deviation of the mean temperature [0.005; quick 0.02]");
+  add("--max-checks", max_checks_, "temperature checks before giving up [100]");
+  add("--settle-steps", settle_steps_, "before the first pair [1000000; quick 50000]");
+  add("--between-steps", between_steps_, "between pairs [100000; quick 20000]");
+  add("--max-pair-steps", max_pair_steps_, "of one pair before giving up [1000000000]");
+}
+
+void EndPointSetup::add_tolerance_to(Options& options) {
+  options.add("--overlap-tolerance", overlap_tolerance_, "of hard spheres in files, in units of s_ij: up to it radii are scaled")
+      .only_for({hard_spheres})
+      .only_for({sphere_files});
+}
+
+RunKinds EndPointSetup::kinds(bool has_pair_files) const {
+  return {kind_if(start_file_.empty(), made_starts, "without --start", "with --start"),
+          kind_if(has_pair_files || !start_file_.empty(), sphere_files, "with a file", "without a file")};
 }
 
 double EndPointSetup::default_distance(std::size_t particles) {
@@ -55,65 +86,32 @@ void take(Target& target, const std::optional<Given>& given) {
   if (given) target = *given;
 }
 
-// Options that the model has no use for are refused: whoever gives them expects something else.
-struct Given {
-  const char* name;
-  bool given;
-};
-void refuse(std::initializer_list<Given> options, const Model& model, const char* of) {
-  for (const Given& option : options)
-    if (option.given)
-      throw_bad_input(fmt::format("{} is not allowed with model {}: it is for {}", option.name, mixture_of(model).name, of));
-}
-
 }  // namespace
 
 EndPointProtocol EndPointSetup::resolve(const Model& model, std::size_t particles, std::uint64_t seed) const {
-  const double distance = distance_.value_or(default_distance(particles));
-  const Mixture& mixture = mixture_of(model);
-  std::optional<int> distance_species;
-  if (!distance_species_.empty()) distance_species = mixture.find_species(distance_species_);
-  if (is_hard(model)) {
-    refuse({{"--density", density_.has_value()},
-            {"--temperature", temperature_.has_value()},
-            {"--time-step", time_step_.has_value()},
-            {"--melt-temperature", melt_temperature_.has_value()},
-            {"--melt-steps", melt_steps_.has_value()},
-            {"--cooling-steps", cooling_steps_.has_value()},
-            {"--rescale-interval", rescale_interval_.has_value()},
-            {"--check-steps", check_steps_.has_value()},
-            {"--check-interval", check_interval_.has_value()},
-            {"--check-tolerance", check_tolerance_.has_value()},
-            {"--max-checks", max_checks_.has_value()},
-            {"--settle-steps", settle_steps_.has_value()},
-            {"--between-steps", between_steps_.has_value()},
-            {"--max-pair-steps", max_pair_steps_.has_value()}},
-           model, "soft models");
-    HardEndPointOptions options;
+  // What both families share.
+  const auto shared = [&](auto options) {
     if (quick_) options.make_quick();
-    options.distance = distance;
-    options.distance_species = distance_species;
+    options.distance = distance_.value_or(default_distance(particles));
+    if (!distance_species_.empty()) options.distance_species = mixture_of(model).find_species(distance_species_);
     options.seed = seed;
     take(options.pairs, pairs_);
-    take(options.equilibration_collisions, equilibration_collisions_);
-    take(options.between_collisions, between_collisions_);
-    take(options.max_pair_collisions, max_pair_collisions_);
-    options.check();
     return options;
-  }
-  refuse({{"--packing-fraction", packing_fraction_.has_value()},
-          {"--start-method", start_method_.has_value()},
-          {"--equilibration-collisions", equilibration_collisions_.has_value()},
-          {"--between-collisions", between_collisions_.has_value()},
-          {"--max-pair-collisions", max_pair_collisions_.has_value()}},
-         model, "hard spheres");
-  EndPointOptions options;
-  if (quick_) options.make_quick();
+  };
+  if (is_hard(model)) return hard_protocol(shared(HardEndPointOptions{}));
+  return soft_protocol(shared(EndPointOptions{}));
+}
+
+HardEndPointOptions EndPointSetup::hard_protocol(HardEndPointOptions options) const {
+  take(options.equilibration_collisions, equilibration_collisions_);
+  take(options.between_collisions, between_collisions_);
+  take(options.max_pair_collisions, max_pair_collisions_);
+  options.check();
+  return options;
+}
+
+EndPointOptions EndPointSetup::soft_protocol(EndPointOptions options) const {
   options.temperature = temperature_.value_or(1.0);
-  options.distance = distance;
-  options.seed = seed;
-  options.distance_species = distance_species;
-  take(options.pairs, pairs_);
   take(options.time_step, time_step_);
   take(options.melt_temperature, melt_temperature_);
   take(options.melt_steps, melt_steps_);
@@ -141,7 +139,7 @@ void EndPointSetup::settle(const Model& model) {
 }
 
 Configuration EndPointSetup::start(const Model& model, const CommonOptions& common, Isa isa) {
-  resolve(model, particles_, common.seed);  // refuses options before there is work to wait for
+  resolve(model, particles_, common.seed);  // refuses values out of range before there is work to wait for
   const auto soft_start = [&](const auto& soft) {
     return start_file_.empty() ? fcc_start(soft, particles_, density_.value_or(1.2), common.seed)
                                : read_first_frame(start_file_, model);
@@ -154,7 +152,6 @@ Configuration EndPointSetup::start(const Model& model, const CommonOptions& comm
 
 Configuration EndPointSetup::hard_start(const HardSphereModel& hard, const CommonOptions& common, Isa isa) {
   if (!start_file_.empty()) {
-    if (packing_fraction_) throw_bad_input("--packing-fraction is not allowed with --start: the file has its own");
     Configuration start = read_hard_frame(start_file_, hard);
     radius_factor_ = remove_rounding_overlaps_in(start_file_, start, overlap_tolerance_);
     return start;

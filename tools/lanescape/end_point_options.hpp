@@ -19,10 +19,14 @@ inline constexpr double default_overlap_tolerance = 1e-7;
 class EndPointSetup {
  public:
   void add_to(Options& options);
+  // Of hard spheres whose positions come from a file.
+  void add_tolerance_to(Options& options);
+  // Where the start comes from; with pairs of files no start is made.
+  RunKinds kinds(bool has_pair_files) const;
 
   // A pair's distance where --distance is not given: 108 at N = 108, else 10 sqrt(N) [sigma].
   static double default_distance(std::size_t particles);
-  // What to run; throws Error(bad_input) for anything out of range, and for options of the other family.
+  // What to run; throws Error(bad_input) for anything out of range.
   EndPointProtocol resolve(const Model& model, std::size_t particles, std::uint64_t seed) const;
   // Fills in the state point where it was not given, so that the resolved run file has it.
   void settle(const Model& model);
@@ -34,6 +38,9 @@ class EndPointSetup {
   double overlap_tolerance() const { return overlap_tolerance_; }
 
  private:
+  void add_soft_protocol_to(Options& options);
+  HardEndPointOptions hard_protocol(HardEndPointOptions options) const;
+  EndPointOptions soft_protocol(EndPointOptions options) const;
   Configuration hard_start(const HardSphereModel& hard, const CommonOptions& common, Isa isa);
 
   std::uint64_t particles_ = 108;

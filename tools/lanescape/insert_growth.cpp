@@ -9,7 +9,6 @@
 namespace lanescape::program {
 
 Json run_growth(InsertState& state, const Options& options, const PairModel& model, Isa isa, int& status) {
-  if (!state.file.empty() && state.density) throw_bad_input("--density is not allowed with FILE, which has its own");
   DensificationOptions with;
   with.temperature = state.temperature.value_or(with.temperature);
   with.equilibration_steps = state.equilibration_steps;
@@ -20,8 +19,6 @@ Json run_growth(InsertState& state, const Options& options, const PairModel& mod
   with.species = state.setup.species_index(model);
   with.threads = state.common.threads;
   with.insertion = state.setup.resolve(state.common.seed);
-  if (state.setup.number({"mean"}))
-    throw_bad_input("--energy: a number is not allowed with --densify: places have the mean excess energy per particle");
   FluidState start = fluid_on_lattice(model, state.particles, state.density.value_or(0.4), with.temperature, state.common.seed);
   if (!state.file.empty()) {
     start.configuration = read_first_frame(state.file, model);

@@ -119,7 +119,6 @@ Json table_json(const Rows& rows) {
 }  // namespace
 
 Json run_scan(InsertState& state, const Options& options, const PairModel& model, Isa isa, int& status) {
-  if (!state.file.empty()) throw_bad_input("FILE is not allowed with --scan, which makes its fluids");
   const InsertionScanOptions with = scan_options(state, model);
   OutputFolder folder = open_folder(state.common);
   folder.write_run_file("insert", options.resolved());

@@ -1,16 +1,10 @@
 #pragma once
 
-#include <toml++/toml.h>
-#include <CLI/CLI.hpp>
-#include <charconv>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "configuration/configuration.hpp"
@@ -19,6 +13,7 @@
 #include "core/run_monitor.hpp"
 #include "dispatch/isa.hpp"
 #include "interaction/pair/pair_interaction.hpp"
+#include "options.hpp"
 #include "output_folder.hpp"
 
 namespace lanescape::program {
@@ -31,77 +26,6 @@ enum ExitStatus {
   goal_not_reached = static_cast<int>(ErrorCode::goal_not_reached),
   bad_input_status = static_cast<int>(ErrorCode::bad_input),
   internal_error = static_cast<int>(ErrorCode::internal),
-};
-
-// The options of one subcommand: CLI11 reads them from the command line, and this remembers how to write their final values
-// into the resolved run file, under the same names.
-class Options {
- public:
-  explicit Options(CLI::App& app) : app_(&app) {}
-
-  template <class T>
-  CLI::Option* add(const std::string& name, T& value, const std::string& description) {
-    writers_.push_back([key = name.substr(2), &value](toml::table& table) { write(table, key, value); });
-    CLI::Option* option = app_->add_option(name, value, description)->capture_default_str();
-    // CLI11 2.1 takes an empty text for no value or zero, and brings counts that are negative or too large into range.
-    if constexpr (std::is_same_v<T, std::uint64_t> || std::is_same_v<T, std::optional<std::uint64_t>>) option->check(&count_fault);
-    if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>) option->check(&number_fault);
-    return option;
-  }
-  // FILE or FILES, under the same name in small letters in the run file.
-  template <class T>
-  CLI::Option* add_positional(const std::string& name, T& value, const std::string& description) {
-    writers_.push_back([key = CLI::detail::to_lower(name), &value](toml::table& table) { write(table, key, value); });
-    return app_->add_option(name, value, description);
-  }
-  CLI::Option* add_flag(const std::string& name, bool& value, const std::string& description) {
-    writers_.push_back([key = name.substr(2), &value](toml::table& table) { write(table, key, value); });
-    return app_->add_flag(name, value, description);
-  }
-  toml::table resolved() const {
-    toml::table table;
-    for (const auto& writer : writers_) writer(table);
-    return table;
-  }
-  CLI::App& app() { return *app_; }
-
- private:
-  // What is wrong with the text of a number; empty where nothing is, as CLI11 wants it.
-  static std::string count_fault(const std::string& text) {
-    std::uint64_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool sound = error == std::errc() && end == text.data() + text.size();
-    return sound ? "" : "'" + text + "' is not allowed: a whole number from 0 to 18446744073709551615 is needed";
-  }
-  static std::string number_fault(const std::string& text) { return text.empty() ? "'' is not allowed: a number is needed" : ""; }
-
-  static void write(toml::table& table, const std::string& key, bool value) { table.insert_or_assign(key, value); }
-  static void write(toml::table& table, const std::string& key, double value) { table.insert_or_assign(key, value); }
-  static void write(toml::table& table, const std::string& key, int value) {
-    table.insert_or_assign(key, static_cast<std::int64_t>(value));
-  }
-  static void write(toml::table& table, const std::string& key, std::uint64_t value) {
-    // TOML's integers have a sign; a text is read back just the same.
-    if (value <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
-      table.insert_or_assign(key, static_cast<std::int64_t>(value));
-    else
-      table.insert_or_assign(key, std::to_string(value));
-  }
-  static void write(toml::table& table, const std::string& key, const std::string& value) {
-    if (!value.empty()) table.insert_or_assign(key, value);
-  }
-  static void write(toml::table& table, const std::string& key, const std::vector<std::string>& values) {
-    toml::array array;
-    for (const auto& value : values) array.push_back(value);
-    if (!array.empty()) table.insert_or_assign(key, std::move(array));
-  }
-  template <class T>
-  static void write(toml::table& table, const std::string& key, const std::optional<T>& value) {
-    if (value) write(table, key, *value);
-  }
-
-  CLI::App* app_;
-  std::vector<std::function<void(toml::table&)>> writers_;
 };
 
 // What every subcommand takes.
@@ -117,6 +41,8 @@ struct CommonOptions {
   Isa resolve_isa();
   // Refuses a thread count below 1.
   void check() const;
+  // Whether the run has a folder for its files, by --out or by --resume.
+  RunKind folder_kind() const;
 };
 
 // Which model, and how a soft one is cut off.
@@ -127,8 +53,10 @@ struct SystemOptions {
   std::optional<std::string> images, truncation, composition, precision;
 
   void add_to(Options& options);
-  // Throws Error(bad_input) for options of soft models with hard spheres.
+  // Throws Error(bad_input) for values that the model does not allow. Options::settle() refuses those that it has no use for.
   Model resolve() const;
+  // The family of the resolved model, and whether it has a name or a file.
+  RunKinds kinds(const Model& resolved) const;
   // Of soft models.
   Precision resolve_precision() const;
   // Refuses mixed precision in a box where it is not to be had.

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "options.hpp"
 
 namespace lanescape::program {
 namespace {
@@ -46,28 +47,62 @@ void append_option(std::vector<std::string>& arguments, const std::string& name,
 void refuse_options_besides_resume(const CLI::App& subcommand) {
   static constexpr std::array allowed = {"--resume", "--threads", "--quiet"};
   for (const CLI::Option* option : subcommand.get_options())
-    if (option->count() > 0 && std::find(allowed.begin(), allowed.end(), option->get_name()) == allowed.end())
+    if (option->count() > 0 && std::find(allowed.begin(), allowed.end(), name_of(*option)) == allowed.end())
       throw_bad_input(fmt::format("{} is not allowed with --resume: only --threads and --quiet are, the rest is the run's own",
-                                  option->get_name()));
+                                  name_of(*option)));
 }
 
-}  // namespace
-
-std::vector<std::string> with_run_file(const std::vector<std::string>& arguments, CLI::App& program) {
+// The subcommand of a command line, some of whose options may still be missing.
+const CLI::App& parsed_subcommand(const std::vector<std::string>& arguments, CLI::App& program) {
   try {
     std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // as CLI11 takes them
     program.parse(reversed);
   } catch (const CLI::RequiredError&) {
     // The run file may have what is missing.
   }
-  if (program.get_subcommands().empty()) {
-    std::string names;
-    for (const CLI::App* app : program.get_subcommands([](const CLI::App*) { return true; }))
-      names += (names.empty() ? "" : ", ") + app->get_name();
-    throw_bad_input(
-        fmt::format("'{}' is no subcommand: {} are allowed (see --help)", arguments.empty() ? "" : arguments.front(), names));
+  if (!program.get_subcommands().empty()) return *program.get_subcommands().front();
+  std::string names;
+  for (const CLI::App* app : program.get_subcommands([](const CLI::App*) { return true; }))
+    names += (names.empty() ? "" : ", ") + app->get_name();
+  throw_bad_input(
+      fmt::format("'{}' is no subcommand: {} are allowed (see --help)", arguments.empty() ? "" : arguments.front(), names));
+}
+
+toml::table read_run_file(const std::string& file, bool resume) {
+  // A folder would be read as an empty file.
+  if (std::filesystem::is_directory(file)) throw_bad_input(fmt::format("{}: it is a folder: a run file (TOML) is needed", file));
+  try {
+    return toml::parse_file(file);
+  } catch (const toml::parse_error& error) {
+    const auto line = error.source().begin.line;
+    throw_bad_input(line > 0
+                        ? fmt::format("{}:{}: not a run file: {}", file, line, error.description())
+                        : fmt::format("{}: cannot be read: {}", file, resume ? "there is no run to resume" : error.description()));
   }
-  const CLI::App& subcommand = *program.get_subcommands().front();
+}
+
+// A value of a run file that is the option's default anyway. Run files of earlier versions hold those of options without an effect.
+bool is_default(const CLI::Option& option, const toml::node& node, const std::string& where) {
+  if (node.is_array() || node.is_boolean() || option.get_default_str().empty()) return false;
+  std::vector<std::string> value;
+  append_value(value, node, where);
+  return value.front() == option.get_default_str();
+}
+
+// Arguments of one entry of a run file: positional ones and the others.
+struct RunFileArguments {
+  std::vector<std::string> positionals, added;
+
+  void add(const CLI::Option& option, const toml::node& node, const std::string& where) {
+    if (!is_default(option, node, where))
+      append_option(option.get_positional() ? positionals : added, name_of(option), node, where);
+  }
+};
+
+}  // namespace
+
+std::vector<std::string> with_run_file(const std::vector<std::string>& arguments, CLI::App& program) {
+  const CLI::App& subcommand = parsed_subcommand(arguments, program);
   const auto given = [&](const char* name) { return subcommand.get_option(name)->count() > 0; };
   const bool resume = given("--resume");
   if (!resume && !given("--config")) return arguments;
@@ -75,35 +110,23 @@ std::vector<std::string> with_run_file(const std::vector<std::string>& arguments
                            : subcommand.get_option("--config")->as<std::string>();
   if (resume) refuse_options_besides_resume(subcommand);
 
-  toml::table table;
-  // A folder would be read as an empty file.
-  if (std::filesystem::is_directory(file)) throw_bad_input(fmt::format("{}: it is a folder: a run file (TOML) is needed", file));
-  try {
-    table = toml::parse_file(file);
-  } catch (const toml::parse_error& error) {
-    const auto line = error.source().begin.line;
-    throw_bad_input(line > 0
-                        ? fmt::format("{}:{}: not a run file: {}", file, line, error.description())
-                        : fmt::format("{}: cannot be read: {}", file, resume ? "there is no run to resume" : error.description()));
-  }
-  std::vector<std::string> positionals, added;
-  for (const auto& [key, node] : table) {
+  RunFileArguments from_file;
+  const std::string& name = subcommand.get_name();
+  for (const auto& [key, node] : read_run_file(file, resume)) {
     const std::string where = fmt::format("{}:{}: {}", file, node.source().begin.line, key.str());
     if (key == "subcommand") {
-      if (node.value_or(std::string()) == subcommand.get_name()) continue;
-      throw_bad_input(fmt::format("{} is {}, this is {}: the run file belongs to the former", where,
-                                  node.value_or(std::string("?")), subcommand.get_name()));
+      const std::string other = node.value_or(std::string("?"));
+      if (other != name)
+        throw_bad_input(fmt::format("{} is {}, this is {}: the run file belongs to the former", where, other, name));
+      continue;
     }
     const CLI::Option* option = find_option(subcommand, std::string(key.str()));
-    if (option == nullptr)
-      throw_bad_input(
-          fmt::format("{} is not an option of {}, see lanescape {} --help", where, subcommand.get_name(), subcommand.get_name()));
-    if (option->count() == 0 && !(resume && key == "out"))
-      append_option(option->get_positional() ? positionals : added, option->get_name(), node, where);
+    if (option == nullptr) throw_bad_input(fmt::format("{} is not an option of {}, see lanescape {} --help", where, name, name));
+    if (option->count() == 0 && !(resume && key == "out")) from_file.add(*option, node, where);
   }
   // Positional arguments come first: elsewhere they would be taken for more values of the option before them.
   std::vector<std::string> extended = {arguments.front()};
-  for (const auto* part : {&positionals, &added}) extended.insert(extended.end(), part->begin(), part->end());
+  for (const auto* part : {&from_file.positionals, &from_file.added}) extended.insert(extended.end(), part->begin(), part->end());
   extended.insert(extended.end(), arguments.begin() + 1, arguments.end());
   return extended;
 }

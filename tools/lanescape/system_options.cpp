@@ -1,0 +1,222 @@
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <initializer_list>
+#include <iostream>
+#include <limits>
+#include <numeric>
+#include <sstream>
+#include <utility>
+
+#include "configuration/model_traits.hpp"
+#include "core/error.hpp"
+#include "core/overloaded.hpp"
+#include "interaction/sphere/rounding_overlaps.hpp"
+#include "interaction/state/state_mixture.hpp"
+#include "io/extended_xyz.hpp"
+#include "io/model_file.hpp"
+#include "program.hpp"
+
+namespace lanescape::program {
+
+void CommonOptions::add_to(Options& options) {
+  threads = omp_get_max_threads();
+  options.add("--seed", seed, "seed of all random numbers");
+  options.add("--threads", threads, "threads; default OMP_NUM_THREADS, else all");
+  options.add("--isa", isa, "instruction set: auto, sse2, avx2, avx512; wins over LANESCAPE_ISA");
+  CLI::App& app = options.app();
+  app.add_flag("--quiet", quiet, "no progress bar, no messages");
+  app.add_option("--config", config, "run file (TOML) with any of these options; flags win");
+  app.add_option("--out", out, "folder for all files; without it none is written");
+  app.add_option("--resume", resume, "folder of an interrupted run to continue");
+}
+
+Isa CommonOptions::resolve_isa() {
+  const Isa chosen = choose_isa(isa);
+  isa = to_string(chosen);
+  return chosen;
+}
+
+void CommonOptions::check() const {
+  if (threads < 1 || threads > 4096) throw_bad_input(fmt::format("--threads: {} is not allowed: from 1 to 4096", threads));
+}
+
+RunKind CommonOptions::folder_kind() const {
+  return kind_if(!out.empty() || !resume.empty(), runs_with_a_folder, "with --out", "without --out");
+}
+
+namespace {
+
+constexpr Scope named_models{"model", "runs without a model file, or with one of kind ucg"};
+
+}  // namespace
+
+void SystemOptions::add_to(Options& options) {
+  options
+      .add("--model", model,
+           "kob-andersen, lennard-jones, wca, wahnstrom, polydisperse, mie, inverse-power, harmonic, hertzian, hard-sphere, "
+           "hard-sphere-binary or ucg")
+      .only_for({named_models});
+  options.add("--model-file", model_file, "model file (TOML) instead of --model; of kind ucg with --model ucg");
+  options.begin_group({soft_models});
+  options.add("--cutoff", cutoff, "cutoff of a soft model in units of sigma_ab; of ucg in sigma [2.5]");
+  options.add("--images", images, "periodic images of a soft model: all within the cutoff, or the minimum image only [all]");
+  options.add("--truncation", truncation, "of a soft model: shifted, plain, tail, shifted-force or smooth [shifted]");
+  options.add("--composition", composition, "of a soft model's generated starts: fractions of the species, 0.65,0.35");
+  options.add("--precision", precision, "of a soft model's pairs: double, or mixed: single with sums in double [double]");
+  options.end_group();
+}
+
+RunKinds SystemOptions::kinds(const Model& resolved) const {
+  const std::string with = fmt::format("with model {}", mixture_of(resolved).name);
+  return {{is_hard(resolved) ? hard_spheres : soft_models, with},
+          kind_if(model_file.empty() || model == "ucg", named_models, "with --model", "with --model-file")};
+}
+
+namespace {
+
+// A file of another kind than the name that is given with it says something else than was meant.
+Model read_named(const std::string& file, const std::string& name) {
+  Model model = read_model_file(file);
+  if (name == "ucg" && !traits_of(model).has_states)
+    throw_bad_input(fmt::format("--model ucg: {} is of another kind: a model file of kind ucg is needed", file));
+  return model;
+}
+
+// The options given are not for this model.
+void refuse_options(std::initializer_list<std::pair<const char*, bool>> given, const Mixture& model, const char* why) {
+  for (const auto& [option, is_given] : given)
+    if (is_given) throw_bad_input(fmt::format("{} is not allowed with model {}: {}", option, model.name, why));
+}
+
+std::vector<Species> with_fractions(std::vector<Species> species, const std::string& list) {
+  std::vector<double> fractions;
+  std::istringstream words(list);
+  for (std::string word; std::getline(words, word, ',');) {
+    char* end = nullptr;
+    fractions.push_back(std::strtod(word.c_str(), &end));
+    if (word.empty() || *end != '\0') fractions.back() = std::numeric_limits<double>::quiet_NaN();
+  }
+  const double sum = std::accumulate(fractions.begin(), fractions.end(), 0.0);
+  const bool in_range = std::all_of(fractions.begin(), fractions.end(), [](double f) { return f >= 0.0 && f <= 1.0; });
+  if (fractions.size() != species.size() || !in_range || std::abs(sum - 1.0) > 1e-9)
+    throw_bad_input(
+        fmt::format("--composition: {} is not allowed: {} numbers from 0 to 1 with the sum 1 are needed, separated by commas", list,
+                    species.size()));
+  for (std::size_t s = 0; s < species.size(); ++s) species[s].fraction = fractions[s];
+  return species;
+}
+
+}  // namespace
+
+Model SystemOptions::resolve() const {
+  Model resolved = model_file.empty() ? named_model(model) : read_named(model_file, model);
+  std::visit(
+      Overloaded{
+          [&](PairModel& soft) {
+            if (cutoff) soft.cutoff = *cutoff;
+            if (images) soft.images = parse_image_rule(*images);
+            if (truncation) soft.truncation = parse_truncation(*truncation);
+            if (composition) soft.species = with_fractions(std::move(soft.species), *composition);
+            soft.check();
+            resolve_precision();
+          },
+          [&](StateMixtureModel& states) {
+            refuse_options({{"--images", images && parse_image_rule(*images) != ImageRule::all}}, states, "all images count");
+            refuse_options({{"--truncation", truncation && parse_truncation(*truncation) != Truncation::shifted}}, states,
+                           "its potentials are shifted");
+            refuse_options({{"--composition", composition.has_value()}}, states, "a model file gives the fractions of its species");
+            refuse_options({{"--precision", resolve_precision() != Precision::double_precision}}, states, "double precision only");
+            if (cutoff) states.cutoff = *cutoff;
+            states.check();
+          },
+          [](HardSphereModel&) {}},
+      resolved);
+  return resolved;
+}
+
+Precision SystemOptions::resolve_precision() const { return parse_precision(precision.value_or("double")); }
+
+void SystemOptions::check_precision_in(const Model& model, const Box& box, double skin) const {
+  std::visit(Overloaded{[&](const PairModel& soft) { check_precision(soft, box, resolve_precision(), skin); },
+                        [](const HardSphereModel&) {}, [](const StateMixtureModel&) {}},
+             model);
+}
+
+PairModel SystemOptions::resolve_pair_model(const char* subcommand) const {
+  const Model resolved = resolve();
+  const auto refuse = [&](const Mixture& model) -> PairModel {
+    throw_bad_input(
+        fmt::format("{}: model {} is made of {}: allowed are models of pair potentials, kob-andersen, lennard-jones and others",
+                    subcommand, model.name, traits_of(resolved).particles));
+  };
+  return std::visit(
+      Overloaded{[](const PairModel& soft) { return soft; }, [&](const HardSphereModel& hard) { return refuse(hard); },
+                 [&](const StateMixtureModel& states) { return refuse(states); }},
+      resolved);
+}
+
+void check_separations_in(const std::string& file, const Configuration& configuration, const Model& model) {
+  try {
+    check_soft_separations(configuration, model);
+  } catch (const Error& error) {
+    throw Error(error.code(), fmt::format("{}: {}", file, error.what()));
+  }
+}
+
+namespace {
+
+// Reads on to the end: a count that does not match its lines shows in the frames that follow.
+Configuration first_of(ExtendedXyzReader& reader) {
+  Configuration first = reader.next()->configuration;
+  while (reader.next()) {
+  }
+  return first;
+}
+
+}  // namespace
+
+Configuration read_first_frame(const std::string& file, const Model& model) {
+  ExtendedXyzReader reader(file, mixture_of(model), traits_of(model).sizes);
+  Configuration first = first_of(reader);
+  check_separations_in(file, first, model);
+  return first;
+}
+
+Configuration read_hard_frame(const std::string& file) {
+  ExtendedXyzReader reader(file, SizeColumn::radius);
+  return first_of(reader);
+}
+
+Configuration read_hard_frame(const std::string& file, const HardSphereModel& model) {
+  ExtendedXyzReader reader(file, model, SizeColumn::radius);
+  return first_of(reader);
+}
+
+double remove_rounding_overlaps_in(const std::string& file, Configuration& configuration, double tolerance) {
+  try {
+    return remove_rounding_overlaps(configuration, tolerance);
+  } catch (const Error& error) {
+    throw Error(error.code(), fmt::format("{}: {}", file, error.what()));
+  }
+}
+
+OutputFolder open_folder(const CommonOptions& common) {
+  if (!common.resume.empty()) return OutputFolder(common.resume, true);
+  return common.out.empty() ? OutputFolder() : OutputFolder(common.out, false);
+}
+
+void write_result(OutputFolder& folder, const std::string& subcommand, const toml::table& resolved, const Json& result) {
+  folder.write_run_file(subcommand, resolved);
+  folder.write("result.json", [&](std::ostream& out) { out << result.dump(2) << '\n'; });
+  folder.keep();
+}
+
+void say(const CommonOptions& common, const std::string& line) {
+  if (!common.quiet) std::cerr << line << '\n';
+}
+
+}  // namespace lanescape::program
