@@ -246,7 +246,7 @@ std::string name_in_results(const PairForm& form) {
 std::vector<PairCase> form_cases(const PairForm& form) {
   std::vector<PairCase> cases;
   for (const auto& numbers : numbers_of(form))
-    for (const std::size_t n : {1U, 2U, 9U, 31U, 108U, 257U}) {
+    for (const std::size_t n : {1U, 2U, 9U, 31U, 65U, 108U}) {
       PairModel model = two_species(form, numbers);
       Configuration configuration =
           rattled(densest_lattice(n), cube(std::cbrt(static_cast<double>(n) / 1.2)), model.species.size());

@@ -71,7 +71,7 @@ def environment(**changes):
     return result
 
 
-def lanescape(*arguments, cwd=None, timeout=30, **variables):
+def lanescape(*arguments, cwd=None, timeout=120, **variables):
     return subprocess.run([PROGRAM, *map(str, arguments)], stdin=subprocess.DEVNULL, capture_output=True, text=True,
                           cwd=cwd, timeout=timeout, env=environment(**variables))
 
