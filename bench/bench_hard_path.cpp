@@ -1,4 +1,4 @@
-// A whole path of binary hard spheres by collision avoidance, N = 108, DeltaR = 108, with the source's own steps. End points are
+// A whole path of binary hard spheres by collision avoidance, N = 108, DeltaR = 108, with [G]'s own steps. End points are
 // made here by event-driven dynamics. The instruction set is the best there is, or LANESCAPE_ISA.
 
 #include <fmt/format.h>

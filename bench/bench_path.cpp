@@ -1,4 +1,4 @@
-// A whole path of Kob-Andersen's mixture, N = 108, T = 1, DeltaR = 108, with the source's own steps: the figure that [C]
+// A whole path of Kob-Andersen's mixture, N = 108, T = 1, DeltaR = 108, with [C]'s own steps: the figure that [C]
 // table 1 gives in seconds. The instruction set is the best there is, or LANESCAPE_ISA.
 
 #include <fmt/format.h>

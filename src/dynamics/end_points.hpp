@@ -11,7 +11,7 @@
 
 namespace lanescape {
 
-// The source's protocol ([G] 3.1.2.2): melt hot, cool, check that the temperature holds without a thermostat, settle, then
+// The protocol of [G] 3.1.2.2: melt hot, cool, check that the temperature holds without a thermostat, settle, then
 // collect pairs of configurations a given distance apart. Counts are molecular dynamics steps.
 struct EndPointOptions {
   double temperature = 1.0;             // [epsilon/k_B]

@@ -15,7 +15,7 @@
 
 namespace lanescape {
 
-// The source's protocol for hard spheres ([G] 3.2.3.2): equilibrate, then collect pairs of configurations a given distance
+// The protocol for hard spheres of [G] 3.2.3.2: equilibrate, then collect pairs of configurations a given distance
 // apart. Counts are collisions.
 struct HardEndPointOptions {
   double distance = 0.0;                // DeltaR between the ends of a pair [sigma]

@@ -14,7 +14,7 @@ namespace lanescape {
 
 // How hard spheres come to their packing fraction:
 // - lattice: on fcc sites, species in halves of the box where there are several;
-// - contraction: from such a lattice at 0.50, or the densest there is below, by mechanical contraction with the source's counts;
+// - contraction: from such a lattice at 0.50, or the densest there is below, by mechanical contraction with [G]'s counts;
 // - growth: from a dilute melt by event-driven dynamics while all diameters grow (Lubachevsky and Stillinger, doi
 //   10.1007/BF01025983), which mixes species and is fast;
 // - automatic: lattice below 0.50 where it leaves 1 % of room, growth elsewhere.

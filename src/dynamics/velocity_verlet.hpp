@@ -22,7 +22,7 @@ class VelocityVerlet {
 
   // Velocities from Maxwell's distribution, total momentum removed, then scaled to the temperature exactly.
   void draw_velocities(double temperature, std::uint64_t seed);
-  // Removes the total momentum and scales so that sum m v^2 / 2 = (3/2) N T, the source's convention ([G] 3.1.2.2).
+  // Removes the total momentum and scales so that sum m v^2 / 2 = (3/2) N T, the convention of [G] 3.1.2.2.
   void rescale_to(double temperature);
   void step();
 

@@ -22,7 +22,7 @@ enum class InsertionMethod {
   usher_indirect,  // an uphill move is followed by a line minimisation
   usher_near,      // the same where the energy is within |U0| of the target, else as usher
   screened,        // as usher, from places that no particle repels strongly, found by looking at distances only
-  descent,         // the source's reference scheme: steepest descent by a fixed step, line minimisation, bracketing
+  descent,         // [U]'s reference scheme: steepest descent by a fixed step, line minimisation, bracketing
 };
 const char* to_string(InsertionMethod method);
 InsertionMethod parse_insertion_method(std::string_view word);  // throws Error(bad_input) naming the allowed words

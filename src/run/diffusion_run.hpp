@@ -27,7 +27,7 @@ struct DiffusionRunOptions {
   void check() const;
 };
 
-// The source's parameters at a packing fraction ([G] tables 4.3 and 4.5; PHYSICS misprints corrected): window, trajectories and
+// The parameters at a packing fraction ([G] tables 4.3 and 4.5; PHYSICS misprints corrected): window, trajectories and
 // collisions between them, for one species or several.
 DiffusionRunOptions source_diffusion_options(std::size_t species, double packing_fraction);
 // For soft models: a record every 10 steps of 0.001, t_max = 10, five trajectories of 100 time units.

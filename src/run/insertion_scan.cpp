@@ -160,7 +160,7 @@ class StateScan {
     return -at_.temperature * std::log(sum / static_cast<double>(options_->widom_probes));
   }
 
-  // Around places of the mean excess energy, as the source does.
+  // Around places of the mean excess energy, as [U] does.
   void look_at_holes(const ProbeField& field, double excess) {
     if (options_->holes == 0) return;
     InsertionOptions with = options_->insertion;

@@ -28,7 +28,7 @@ class AvoidanceStatistics {
   const std::vector<std::uint64_t>& moved() const { return moved_; }        // c
   const std::vector<std::uint64_t>& group_sizes(Range range) const { return group_sizes_[range]; }
   const std::vector<std::uint64_t>& group_numbers() const { return group_numbers_; }  // m
-  // Steps with fewer than the first, or more than the second, belong to few_groups and many_groups: the source's 4 and 18 at
+  // Steps with fewer than the first, or more than the second, belong to few_groups and many_groups: [G]'s 4 and 18 at
   // N = 108, 10 and 45 at N = 256, in proportion elsewhere.
   std::array<std::size_t, 2> group_bounds() const { return bounds_; }
 

@@ -168,7 +168,7 @@ bool AwayStepper::resolve(std::size_t p, std::size_t q) {
   const Vector v = heading(q);
   const Vector origin = position_[q];
   if (!make_way(p, q, origin, v, infinity) || !settle()) return false;
-  const double projection = dot(separation(position_[q], p), v);       // the source's, for q at the origin
+  const double projection = dot(separation(position_[q], p), v);       // [G]'s, for q at the origin
   return !(projection > 0.0) || (push(q, v, projection) && settle());  // else q was itself pushed past p
 }
 

@@ -19,7 +19,7 @@ namespace lanescape {
 // The older method for hard spheres ([G] 5.2), the negative control: straight flights R_f - R to the first contact, in turn with
 // away steps, in which of the two in contact one moves out of the other's way and the other advances beside it.
 //
-// Where the source leaves things open, as reference/hard_geodesic:
+// Where [G] leaves things open, as reference/hard_geodesic:
 // - Of two in contact that one is in the other's way which lies ahead of it. Beside it, to `slack`, is out of the way, and a
 //   sphere that makes way goes on to that gap: else rounding alone would make the same two collide for ever.
 // - The sphere that makes way moves first, then one by one, in the user's order and recursively, whatever its own move runs

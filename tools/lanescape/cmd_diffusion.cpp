@@ -142,7 +142,7 @@ Subcommand add_diffusion(CLI::App& app) {
   const auto options = std::make_shared<Options>(*sub);
   const auto state = std::make_shared<DiffusionState>();
   options->add("--interval", state->interval,
-               "time between records [hard spheres: the source's at this packing fraction; soft 0.01]");
+               "time between records [hard spheres: those published for this packing fraction; soft 0.01]");
   options->add("--lags", state->lags, "records in a window: t_max is so many intervals [source's; soft 1000]");
   options->add("--records", state->records, "of a trajectory [source's; soft 11000]");
   options->add("--trajectories", state->trajectories, "[5; mixtures of hard spheres 10]");

@@ -297,9 +297,7 @@ Subcommand add_path(CLI::App& app) {
   options->add("--pair", state->pair_files, "files with two frames, the end points; without any, pairs are made as by endpoints");
   options->add("--method", state->method, "contour or escape; avoidance or away for hard spheres [contour, avoidance]");
   // Nothing to choose yet: a name for what is done anyway.
-  sub->add_flag_function(
-         "--faithful", [](std::int64_t) {}, "steps exactly as in the source (the default)")
-      ->disable_flag_override();
+  sub->add_flag_function("--faithful", [](std::int64_t) {}, "steps exactly as published (the default)")->disable_flag_override();
   options->add("--step", state->step, "length of a direct step in 3N space [sigma] [0.001; hard spheres 0.01]")
       .only_for({direct_steps_of_a_length});
   options

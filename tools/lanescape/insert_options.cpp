@@ -13,7 +13,8 @@ void InsertionSetup::add_to(Options& options) {
               "potential");
   options.add("--tolerance", tolerance, "largest error of the energy");
   options.add("--measure", measure, "of the error: relative, absolute, or running-mean: relative, over thirty insertions");
-  options.add("--method", method, "usher, usher-indirect, usher-near, screened, or descent, the source's reference scheme");
+  options.add("--method", method,
+              "usher, usher-indirect, usher-near, screened, or descent, the reference scheme that USHER was published with");
   options.add("--largest-step", largest_step, "[0.1 density^(-3/2)]");
   options.add("--traverse-step", traverse_step, "of descent, after a line minimisation");
   options.add("--clear-energy", clear_energy, "of screened: no particle alone repels a start by more");

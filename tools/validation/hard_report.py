@@ -39,12 +39,12 @@ def cell(values, form):
 
 
 def source_ratio(phi):
-    """Mode-coupling fit of the source's figure 4.20, 0.53 to 0.57."""
+    """Mode-coupling fit of [G]'s figure 4.20, 0.53 to 0.57."""
     return math.exp(1.450393 * math.log(0.59 - phi) - 1.404044) if phi >= 0.53 else None
 
 
 def source_diffusion_big(phi):
-    """Vogel-Fulcher-Tammann fit of the source's figure 4.21, 0.50 and above."""
+    """Vogel-Fulcher-Tammann fit of [G]'s figure 4.21, 0.50 and above."""
     return math.exp(-0.159643 / (0.6122 - phi) - 2.836295) if phi >= 0.50 else None
 
 
@@ -124,7 +124,7 @@ def with_error(d, name, scale):
 
 
 def diffusion_table(folder, kind):
-    # From the source's (3/2) N T to 3N - 3 degrees of freedom.
+    # From [G]'s (3/2) N T to 3N - 3 degrees of freedom.
     scale = math.sqrt((PARTICLES - 1) / PARTICLES)
     species = {"binary": ["Xe", "Ar"], "mono": ["Ar"]}[kind]
     print(f"### Diffusion, {kind} (N = 108; D in units of sigma (k_B T/m)^1/2, 3N - 3 degrees of freedom)\n")

@@ -1,4 +1,4 @@
-# Geodesics and diffusion of hard spheres against the source's figures: the hard-sphere part of docs/VALIDATION.md.
+# Geodesics and diffusion of hard spheres against [G]'s figures: the hard-sphere part of docs/VALIDATION.md.
 #
 #   snakemake -s tools/validation/hard_spheres.smk --cores 2 --config program=build/release/lanescape out=out/validation-hard
 #

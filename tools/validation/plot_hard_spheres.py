@@ -33,7 +33,7 @@ def draw(axes, folder, kind):
         points = series(folder, kind, species)
         axes.errorbar(list(points), [d for d, _ in points.values()], [e for _, e in points.values()], fmt="o", color=colour, label=f"molecular dynamics, {label}")
         common = [phi for phi in ratios if phi in points]
-        # The source's scaling: the mean of D / (DeltaR/g)^2 over the state points.
+        # [G]'s scaling: the mean of D / (DeltaR/g)^2 over the state points.
         scale = statistics.mean(points[phi][0] / ratios[phi] for phi in common)
         axes.plot(list(ratios), [scale * r for r in ratios.values()], "--", color=colour, label=rf"{scale:.3g} $(\Delta R/g)^2$")
     if kind == "binary":

@@ -29,7 +29,7 @@ VARIANTS = {
     "fine-108": Variant("contour, step 0.0001", 108, "minimum", "contour", 1e-4, 5),
     "all-256": Variant("contour, all images, N = 256", 256, "all", "contour", 1e-3, 5),
 }
-# Seconds per path in the source's table 1 (contour, escape).
+# Seconds per path in [C]'s table 1 (contour, escape).
 SOURCE_SECONDS = {5: (750, 12000), 4: (800, 12000), 3: (850, 12000), 2: (900, 13000), 1: (1100, 15000)}
 
 
