@@ -52,7 +52,7 @@ class EndPoints(ProgramTest):
         self.assertEqual((result["pairs"], result["outcome"]), ([], "temperature not held"))
 
     def test_stderr_has_a_progress_bar_on_a_terminal_only(self):
-        arguments = ("endpoints", *ARGON, *with_options(TINY, "--melt-steps", "200000"))
+        arguments = ("endpoints", *ARGON, *with_options(TINY, "--melt-steps", "1500000"))
         self.assertEqual(lanescape(*arguments).stderr, "")
         for quiet in (False, True):
             master, terminal = pty.openpty()

@@ -69,7 +69,7 @@ class Resuming(InterruptionTest):
                 self.assert_resumes_to(out, whole, "path", times=2)
 
     def test_a_path_run_interrupted_while_end_points_are_made_resumes_to_the_same_bits(self):
-        arguments = ("path", *ARGON, *with_options(FLUID, "--melt-steps", "200000"))
+        arguments = ("path", *ARGON, *with_options(FLUID, "--melt-steps", "1500000"))
         whole, out = self.folder / "whole", self.folder / "cut"
         self.done(*arguments, "--out", whole)
         result = self.interrupt(*arguments, out=out, after="run.toml", with_signal=signal.SIGTERM)
@@ -77,7 +77,7 @@ class Resuming(InterruptionTest):
         self.assert_resumes_to(out, whole, "path")
 
     def test_an_interrupted_run_may_go_on_with_another_number_of_threads(self):
-        arguments = ("path", *ARGON, *with_options(FLUID, "--melt-steps", "200000", "--pairs", "2"), "--threads")
+        arguments = ("path", *ARGON, *with_options(FLUID, "--melt-steps", "1500000", "--pairs", "2"), "--threads")
         whole, out = self.folder / "whole", self.folder / "cut"
         complete = self.done(*arguments, "1", "--out", whole)
         self.interrupt(*arguments, "1", out=out, after="run.toml", with_signal=signal.SIGTERM)
