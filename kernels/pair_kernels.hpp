@@ -8,6 +8,8 @@ namespace lanescape::kernels {
 
 // All loops over one pair potential.
 struct PairKernels {
+  bool in_box_units;  // PairInput::unit may be box
+
   // Over all pairs. The three give bit-equal energies and virials.
   double (*energy)(const PairInput&) noexcept;
   void (*gradient)(const PairInput&, double* gradient, PairOutput&) noexcept;

@@ -46,7 +46,8 @@ struct LennardJones {
     sums.count = masked_increment(sums.count, in_range);
   }
   // -u'(r)/r
-  static LANESCAPE_INLINE V force_over_r(const Parameters& u, const Terms& t) {
+  template <class M>
+  static LANESCAPE_INLINE V force_over_r(const Parameters& u, const Terms& t, M) {
     return (multiply_add(u.twelve_c12, t.rinv6, u.minus_six_c6) * t.rinv6) * t.rinv2;
   }
 };

@@ -1,26 +1,27 @@
 #pragma once
 
-#include "forms/energy_sums.hpp"
+#include "forms/truncation.hpp"
 
 namespace lanescape::kernels::LANESCAPE_ISA {
 
 // u(r) = epsilon [x^-12 + c0 + c2 x^2 + c4 x^4], x = r/sigma_ij below its cutoff, with a diameter of each particle:
 // sigma_ij = (sigma_i + sigma_j)/2 (1 - eta |sigma_i - sigma_j|). doi 10.1103/PhysRevX.7.021039
-// Coefficients: epsilon, c0, c2, c4, eta, square of the cutoff in units of sigma_ij.
+// Coefficients: those of Correction, epsilon, c0, c2, c4, eta, square of the cutoff in units of sigma_ij.
 template <class V>
 struct Polydisperse : EnergyForm<V> {
   static constexpr bool has_diameters = true;
-  using Terms = EnergyTerms<V>;
+  using typename EnergyForm<V>::Terms;
 
   struct Parameters {
     V epsilon, c0, c2, c4, half_eta, cutoff2;
+    Correction<V> correction;
     PairUnit<V> unit;
   };
 
   template <class Given>
   static LANESCAPE_INLINE Parameters parameters(const Given& p) {
     const auto c = [&](std::size_t k) { return broadcast<V>(p.coefficient[k]); };
-    return {c(0), c(1), c(2), c(3), broadcast<V>(p.coefficient[4] / 2), c(5), PairUnit<V>(p)};
+    return {c(4), c(5), c(6), c(7), broadcast<V>(p.coefficient[8] / 2), c(9), Correction<V>(p), PairUnit<V>(p)};
   }
   static LANESCAPE_INLINE V sigma_squared(const Parameters& u, V own, V other) {
     const V sigma = (own + other) * subtract_product(broadcast<V>(0.5), u.half_eta, absolute(own - other));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "forms/energy_sums.hpp"
+#include "forms/truncation.hpp"
 
 namespace lanescape::kernels::LANESCAPE_ISA {
 
@@ -8,7 +8,7 @@ namespace lanescape::kernels::LANESCAPE_ISA {
 // Coefficients: those of Correction, a, 1/sigma, whether the power is 5/2.
 template <class V>
 struct SoftSphere : EnergyForm<V> {
-  using Terms = EnergyTerms<V>;
+  using typename EnergyForm<V>::Terms;
 
   struct Parameters {
     V cutoff_squared, a, inverse_sigma, power_a_over_sigma;
@@ -34,17 +34,10 @@ struct SoftSphere : EnergyForm<V> {
   static LANESCAPE_INLINE Terms terms(const Parameters& u, const Separation<V>& s, M in_range) {
     // Centres that coincide have no direction: a tiny r makes the force on them zero.
     const V r2 = maximum(u.unit.square(s.r2), broadcast<V>(1e-36)), r = square_root(r2);
-    const V depth = broadcast<V>(1) - r * u.inverse_sigma;
-    V slope = u.power_a_over_sigma * depth;
-    V energy = (u.a * depth) * depth;
-    if (u.hertzian) {
-      const V root = square_root(maximum(depth, zero<V>()));
-      slope = slope * root;
-      energy = energy * root;
-    }
-    Terms t{energy, slope / r, r2};
-    u.correction.add(t, in_range);
-    return t;
+    // Rounding may leave a depth below zero at the edge.
+    const V depth = maximum(masked(in_range, broadcast<V>(1) - r * u.inverse_sigma), zero<V>());
+    const V lower = u.hertzian ? depth * square_root(depth) : depth;  // the power that the force has
+    return {(u.a * depth) * lower, (u.power_a_over_sigma * lower) / r, r2};
   }
 };
 

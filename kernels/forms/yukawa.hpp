@@ -1,6 +1,6 @@
 #pragma once
 
-#include "forms/energy_sums.hpp"
+#include "forms/truncation.hpp"
 #include "simd/exponential.hpp"
 
 namespace lanescape::kernels::LANESCAPE_ISA {
@@ -9,7 +9,7 @@ namespace lanescape::kernels::LANESCAPE_ISA {
 // Coefficients: those of Correction, a, kappa, kappa sigma.
 template <class V>
 struct Yukawa : EnergyForm<V> {
-  using Terms = EnergyTerms<V>;
+  using typename EnergyForm<V>::Terms;
 
   struct Parameters {
     V cutoff_squared, a, kappa, kappa_sigma;
@@ -25,11 +25,9 @@ struct Yukawa : EnergyForm<V> {
 
   template <class M>
   static LANESCAPE_INLINE Terms terms(const Parameters& u, const Separation<V>& s, M in_range) {
-    const V rinv2 = u.unit.inverse(in_range, s.r2), rinv = square_root(rinv2), r2 = u.unit.square(s.r2), r = r2 * rinv;
-    const V energy = (u.a * rinv) * exponential(subtract_product(u.kappa_sigma, u.kappa, r));
-    Terms t{energy, energy * multiply_add(u.kappa, rinv, rinv2), r2};
-    u.correction.add(t, in_range);
-    return t;
+    const V r2 = u.unit.square(s.r2), rinv = square_root(masked_quotient(in_range, broadcast<V>(1), r2));
+    const V energy = (u.a * rinv) * exponential(subtract_product(u.kappa_sigma, u.kappa, r2 * rinv));
+    return {energy, energy * ((u.kappa + rinv) * rinv), r2};
   }
 };
 

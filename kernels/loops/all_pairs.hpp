@@ -91,7 +91,7 @@ LANESCAPE_INLINE void pair_vector(const Displacement& nearest, const Box& box, c
     const auto terms = Form::terms(u, {r2, sigma2}, in);
     Form::add(sums, u, terms, in);
     if constexpr (!has_gradient(output)) return;
-    const Vector w = Form::force_over_r(u, terms);
+    const Vector w = Form::force_over_r(u, terms, in);
     add_scaled(row, w, d);
     subtract_scaled(column, w, d);
     if constexpr (output == Output::stress) add_tensor(totals, d, w);

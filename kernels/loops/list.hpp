@@ -50,7 +50,7 @@ LANESCAPE_INLINE void list_vector(const double* points, const std::uint32_t* off
   const auto terms = Form::terms(u, separation, in_range);
   if constexpr (has_energy(output)) Form::add(sums.pairs, u, terms, in_range);
   if constexpr (has_gradient(output)) {
-    const Vector w = Form::force_over_r(u, terms);
+    const Vector w = Form::force_over_r(u, terms, in_range);
     add_scaled(sums.gradient, w, d);
     if constexpr (output == Output::stress) add_tensor(totals, d, w);
   }

@@ -40,7 +40,7 @@ LANESCAPE_INLINE void mixed_vector(const std::int32_t* points, const std::uint32
   const FloatMask in_range = both(valid, Form::in_range(u, separation));
   const auto terms = Form::terms(u, separation, in_range);
   if constexpr (has_energy(output)) Form::add(sums.pairs, u, terms, in_range);
-  if constexpr (has_gradient(output)) add_scaled(sums.gradient, Form::force_over_r(u, terms), d);
+  if constexpr (has_gradient(output)) add_scaled(sums.gradient, Form::force_over_r(u, terms, in_range), d);
 }
 
 template <template <class> class Form, Output output>

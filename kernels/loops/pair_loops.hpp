@@ -13,10 +13,9 @@ template <template <class> class Form>
 struct PairLoops {
   using Exact = Form<Vector>;
 
-  template <Output output>
   static double all_pairs_energy(const PairInput& in) noexcept {
     PairOutput out;
-    sum_all_pairs<Exact, output>(in, nullptr, out);
+    sum_all_pairs<Exact, Output::energy>(in, nullptr, out);
     return out.energy;
   }
   template <Output output>
@@ -56,7 +55,8 @@ struct PairLoops {
   }
 
   static constexpr PairKernels kernels() noexcept {
-    return {.energy = all_pairs_energy<Output::energy>,
+    return {.in_box_units = Exact::in_box_units,
+            .energy = all_pairs_energy,
             .gradient = all_pairs<Output::gradient>,
             .stress = all_pairs<Output::stress>,
             .list_energy = list_energy,

@@ -39,6 +39,7 @@ template <class V>
 struct PairUnit {
   explicit PairUnit(const PairParameters&) {}
   static LANESCAPE_INLINE V square(V r2) { return r2; }
+  static LANESCAPE_INLINE V from_sigma(V square) { return square; }
   static LANESCAPE_INLINE V inverse(Mask in_range, V r2) { return masked_reciprocal(in_range, r2); }
 };
 template <>
@@ -47,6 +48,8 @@ struct PairUnit<FloatVector> {
   explicit PairUnit(const SinglePairParameters& p)
       : sigma_squared(broadcast<FloatVector>(p.sigma_squared)), unit_squared(broadcast<FloatVector>(p.unit_squared)) {}
   LANESCAPE_INLINE FloatVector square(FloatVector r2) const { return r2 * unit_squared; }
+  // The inverse of square().
+  LANESCAPE_INLINE FloatVector from_sigma(FloatVector square) const { return square * sigma_squared; }
   LANESCAPE_INLINE FloatVector inverse(FloatMask in_range, FloatVector r2) const {
     return masked_quotient(in_range, sigma_squared, r2);
   }

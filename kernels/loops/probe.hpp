@@ -26,7 +26,7 @@ LANESCAPE_INLINE void add_run(const ProbeSpecies& points, const Displacement& pr
     const Mask in_range = both(Form::in_range(u, separation), lanes_below(static_cast<std::ptrdiff_t>(end - k)));
     const auto terms = Form::terms(u, separation, in_range);
     Form::add(sums.pairs, u, terms, in_range);
-    if constexpr (has_gradient(output)) subtract_scaled(sums.gradient, Form::force_over_r(u, terms), d);
+    if constexpr (has_gradient(output)) subtract_scaled(sums.gradient, Form::force_over_r(u, terms, in_range), d);
   }
 }
 

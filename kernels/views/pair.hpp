@@ -20,10 +20,15 @@ enum class LengthUnit : std::uint32_t { box, sigma };
 
 // One species pair of a pair potential, in the unit of the separations. What the coefficients mean is the form's own affair:
 // kernels/forms/<form>.hpp.
-inline constexpr std::size_t pair_coefficients = 9;
+inline constexpr std::size_t pair_coefficients = 10;
+
+// What a truncation adds to u(r): a constant; c0 + c2 r^2 + c4 r^4; or c1 r too, which costs a root for each pair.
+enum class PairCorrectionKind : std::uint32_t { constant, even, linear };
+
 struct PairParameters {
   double cutoff_squared;
   double coefficient[pair_coefficients];
+  PairCorrectionKind correction;
   ImageSearch images;
 };
 
@@ -33,6 +38,7 @@ struct SinglePairParameters {
   float sigma_squared;                   // 1 sigma^2 in the same units
   float unit_squared;                    // one of these units squared [sigma^2]
   float coefficient[pair_coefficients];  // [sigma]
+  PairCorrectionKind correction;
 };
 
 struct PairInput {

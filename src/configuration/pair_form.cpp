@@ -24,7 +24,7 @@ PairForm lennard_jones() {
     const double c12 = 4.0 * p.epsilon * s6 * s6, c6 = 4.0 * p.epsilon * s6;
     return {(c12 * rinv6 - c6) * rinv6, -(12.0 * c12 * rinv6 - 6.0 * c6) * rinv6, (156.0 * c12 * rinv6 - 42.0 * c6) * rinv6};
   };
-  form.truncated_as = {"mie", {12.0, 6.0}};
+  form.truncated_as = {"lennard-jones-12-6-4", {0.0}};
   form.tail = [](const PairNumbers& p, double cutoff) -> PairTail {
     const double x3 = std::pow(cutoff, -3), x9 = x3 * x3 * x3, scale = 4.0 * p.epsilon * p.sigma * p.sigma * p.sigma;
     return {scale * (x9 / 9.0 - x3 / 3.0), scale * (12.0 * x9 / 9.0 - 6.0 * x3 / 3.0)};
@@ -52,7 +52,7 @@ void put_correction(const PairCorrection& c, double unit, Coefficients out) {
   out[3] = c.c4 * unit * unit * unit * unit;
 }
 
-// a (sigma/r)^n - b (sigma/r)^m
+// a (sigma/r)^n - b (sigma/r)^m; of a single power b is 0, and m any even number up to n.
 struct TwoPowers {
   double a, n, b, m;
 
@@ -69,7 +69,7 @@ struct TwoPowers {
   }
   void put(double sigma, const PairCorrection& correction, double unit, Coefficients out) const {
     put_correction(correction, unit, out);
-    const double own[] = {a, b, n / 2.0, m / 2.0, (sigma / unit) * (sigma / unit)};
+    const double own[] = {a, b, m / 2.0, (n - m) / 2.0, (sigma / unit) * (sigma / unit)};
     std::copy(std::begin(own), std::end(own), out.begin() + 4);
   }
 };
@@ -101,19 +101,21 @@ PairForm mie() {
   return form;
 }
 
-// epsilon (sigma/r)^n
+// epsilon (sigma/r)^n: in the kernel the product of two powers that are about equal.
+TwoPowers single_power(const PairNumbers& p) { return {p.epsilon, p.form[0], 0.0, 2.0 * std::floor(p.form[0] / 4.0)}; }
+
 PairForm inverse_power() {
   PairForm form;
   form.word = "inverse-power";
   form.kernel = kernels::PairForm::even_powers;
   form.numbers = {{"exponent", 2, 64, true, 12}};
-  form.derivatives = [](const PairNumbers& p, double r) { return TwoPowers{p.epsilon, p.form[0], 0.0, 0.0}.at(p.sigma / r); };
-  form.tail = [](const PairNumbers& p, double x) { return TwoPowers{p.epsilon, p.form[0], 0.0, 0.0}.tail(p.sigma, x); };
+  form.derivatives = [](const PairNumbers& p, double r) { return single_power(p).at(p.sigma / r); };
+  form.tail = [](const PairNumbers& p, double x) { return single_power(p).tail(p.sigma, x); };
   form.repulsive_distance = [](const PairNumbers& p, double energy) {
     return p.sigma * std::pow(p.epsilon / energy, 1.0 / p.form[0]);
   };
   form.coefficients = [](const PairNumbers& p, const PairCorrection& correction, double unit, Coefficients out) {
-    TwoPowers{p.epsilon, p.form[0], 0.0, 0.0}.put(p.sigma, correction, unit, out);
+    single_power(p).put(p.sigma, correction, unit, out);
   };
   return form;
 }
@@ -136,7 +138,7 @@ PairForm yukawa() {
   // Newton's method for ln u(r) = ln energy, which is concave in ln r.
   form.repulsive_distance = [](const PairNumbers& p, double energy) {
     const double kappa = p.form[0];
-    double r = p.epsilon * p.sigma / energy * std::exp(kappa * p.sigma);  // u is below this one's 1/r
+    double r = p.sigma;
     for (int k = 0; k < 200; ++k) {
       const double error = std::log(p.epsilon * p.sigma / (r * energy)) + kappa * (p.sigma - r);
       const double next = r * std::exp(error / (1.0 + kappa * r));
@@ -225,9 +227,10 @@ PairForm polydisperse() {
             p.epsilon * (156.0 * repulsion + 2.0 * c2 * x2 + 12.0 * c4 * x4)};
   };
   form.repulsive_distance = [](const PairNumbers& p, double energy) { return p.sigma * std::pow(p.epsilon / energy, 1.0 / 12.0); };
-  form.coefficients = [](const PairNumbers& p, const PairCorrection&, double unit, Coefficients out) {
+  form.coefficients = [](const PairNumbers& p, const PairCorrection& correction, double unit, Coefficients out) {
+    put_correction(correction, unit, out);
     const double own[] = {p.epsilon, c0, c2, c4, p.form[0] * unit, range * range};
-    std::copy(std::begin(own), std::end(own), out.begin());
+    std::copy(std::begin(own), std::end(own), out.begin() + 4);
   };
   return form;
 }

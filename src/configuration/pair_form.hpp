@@ -26,6 +26,11 @@ struct PairDerivatives {
 // What a truncation adds to u(r) below the cutoff: c0 + c1 r + c2 r^2 + c4 r^4.
 struct PairCorrection {
   double c0 = 0.0, c1 = 0.0, c2 = 0.0, c4 = 0.0;
+
+  kernels::PairCorrectionKind kind() const {
+    if (c1 != 0.0) return kernels::PairCorrectionKind::linear;
+    return c2 != 0.0 || c4 != 0.0 ? kernels::PairCorrectionKind::even : kernels::PairCorrectionKind::constant;
+  }
 };
 
 // Integrals from the cutoff to infinity of r^2 u(r) and of -r^3 u'(r) [epsilon sigma^3].

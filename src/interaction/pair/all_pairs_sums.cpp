@@ -27,8 +27,7 @@ AllPairsSums::AllPairsSums(const PairModel& model, const Box& box, const Particl
         input_.shells[axis] = std::max(input_.shells[axis], static_cast<std::int32_t>(image_shells(box.length[axis], cutoff)));
   }
   const bool lattice = std::find(images.begin(), images.end(), ImageSearch::lattice) != images.end();
-  const bool in_box_units = model.kernel_form().kernel == kernels::PairForm::lennard_jones;
-  input_.unit = in_box_units && is_cubic(box) && !lattice ? LengthUnit::box : LengthUnit::sigma;
+  input_.unit = kernels_->in_box_units && is_cubic(box) && !lattice ? LengthUnit::box : LengthUnit::sigma;
   const double unit = input_.unit == LengthUnit::box ? box.length[0] : 1.0;
   pairs_ = pair_parameters(model, unit);
   if (model.form->has_diameters) {

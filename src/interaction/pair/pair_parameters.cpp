@@ -20,9 +20,9 @@ std::vector<kernels::PairParameters> pair_parameters(const PairModel& model, dou
   std::vector<kernels::PairParameters> pairs;
   for (std::size_t ab = 0; ab < model.sigma.size(); ++ab) {
     const double cutoff = model.cutoff_of(ab);
-    kernels::PairParameters pair{cutoff * cutoff / (unit * unit), {}, kernels::ImageSearch::nearest};
     PairNumbers numbers = model.numbers(ab);
     const PairCorrection correction = model.correction(numbers);
+    kernels::PairParameters pair{cutoff * cutoff / (unit * unit), {}, correction.kind(), kernels::ImageSearch::nearest};
     numbers.form = model.kernel_numbers();
     model.kernel_form().coefficients(numbers, correction, unit, std::span<double, kernels::pair_coefficients>(pair.coefficient));
     pairs.push_back(pair);
@@ -38,7 +38,8 @@ std::vector<kernels::SinglePairParameters> single_pair_parameters(const std::vec
     kernels::SinglePairParameters p{static_cast<float>(pair.cutoff_squared * sigma_squared),
                                     static_cast<float>(sigma_squared),
                                     static_cast<float>(fixed_unit * fixed_unit),
-                                    {}};
+                                    {},
+                                    pair.correction};
     std::transform(std::begin(pair.coefficient), std::end(pair.coefficient), p.coefficient,
                    [](double c) { return static_cast<float>(c); });
     single.push_back(p);
