@@ -54,6 +54,7 @@ function(lanescape_add_isa_objects name)
     add_library(${target} OBJECT ${ARGN})
     target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/kernels)
     target_compile_definitions(${target} PRIVATE LANESCAPE_ISA=${isa})
+    target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/kernels/simd/simd.hpp)  # all that xsimd and intrinsics declare
     # No contraction: a product and a sum are fused where the source says so and nowhere else, so that the energies of two
     # kernels agree to the bit. Hidden symbols: code compiled for one processor must not leak into the rest of the program.
     target_compile_options(

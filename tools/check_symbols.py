@@ -86,7 +86,7 @@ def object_files(paths):
     files = []
     for path in map(pathlib.Path, paths):
         files += sorted(path.rglob("*.o")) if path.is_dir() else [path]
-    return files
+    return [file for file in files if file.suffix != ".gch"]  # CMake counts precompiled headers among a target's objects
 
 
 def main():
