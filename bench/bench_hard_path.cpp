@@ -48,7 +48,7 @@ std::string check(const PathResult& path) {
 
 void find_path(benchmark::State& state, double packing_fraction, kernels::ContactPotential potential) {
   PathRunOptions options;
-  options.method = PathMethod::avoidance;
+  options.method = &path_method("avoidance");
   options.fictitious = potential;
   options.finder.frames = 20;
   SilentMonitor monitor;

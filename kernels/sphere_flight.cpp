@@ -5,6 +5,18 @@
 
 namespace lanescape::kernels::LANESCAPE_ISA {
 
+namespace {
+
+// The earliest event of all lanes; of several at one time the first in the list, whatever the number of lanes.
+CollisionEvent first_of(const CollisionQuery& query, const Vector& earliest, const Vector& place) {
+  const double wait = reduce_min(earliest);
+  if (!(wait < __builtin_inf())) return {__builtin_inf(), -1};
+  const double first = reduce_min(select(equal(earliest, broadcast(wait)), place, broadcast(__builtin_inf())));
+  return {query.now + wait, query.neighbours[static_cast<std::size_t>(first)]};
+}
+
+}  // namespace
+
 // t = [-b - sqrt(b^2 - v^2 (r^2 - s^2))]/v^2 ([G] Eq. 3.45) as (r^2 - s^2)/[sqrt(...) - b], which loses no digits when the spheres
 // are nearly in contact. Products and sums are rounded one by one and no sum crosses lanes, so that every instruction set
 // finds the same time to the bit.
@@ -45,11 +57,7 @@ CollisionEvent sphere_first_collision(const CollisionQuery& query) noexcept {
     earliest = select(hits, wait, earliest);
     place = select(hits, count_from(static_cast<double>(k)), place);
   }
-  const double wait = reduce_min(earliest);
-  if (!(wait < __builtin_inf())) return {__builtin_inf(), -1};
-  // Of several at one time the first in the list, whatever the number of lanes.
-  const double first = reduce_min(select(equal(earliest, broadcast(wait)), place, broadcast(__builtin_inf())));
-  return {query.now + wait, query.neighbours[static_cast<std::size_t>(first)]};
+  return first_of(query, earliest, place);
 }
 
 void calendar_update(const CalendarView& calendar, std::size_t event, double time) noexcept {

@@ -30,8 +30,8 @@ ABOVE_THE_API = {"capi"}  # sees the installed headers although it has their num
 SEES_KERNEL_TABLE = {"dispatch", "neighbour", "interaction", "dynamics", "verification"}
 SEEN_OF_KERNELS = ("views/", "pair_forms.hpp")
 SEES_REFERENCE = {"verification"}
-# The program starts runs, reads files and verifies; landscapes, dynamics, steppers and paths reach it through run/ only.
-PROGRAM_STAGES = {"core", "configuration", "io", "dispatch", "insertion", "interaction", "run", "verification"}
+# The program starts runs, reads files, averages results and verifies; landscapes, dynamics, steppers and paths reach it through run/ only.
+PROGRAM_STAGES = {"core", "configuration", "io", "dispatch", "insertion", "interaction", "observables", "run", "verification"}
 
 KERNEL_STANDARD_HEADERS = {"cstddef", "cstdint", "cmath", "type_traits", "utility"}
 VECTOR_LAYER = "kernels/simd/"

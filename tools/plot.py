@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Draw the figures of a run's folder: tools/plot.py DIR
 
-Reads from DIR what `lanescape path`, `lanescape endpoints`, `lanescape diffusion` and `lanescape insert` write there:
+Reads from DIR what `lanescape path`, `lanescape endpoints`, `lanescape diffusion`, `lanescape insert` and `lanescape slab`
+write there:
   result.json               outcome, length, landscape energy, ... of each path (required)
   run.toml                  the target temperature; of insertion also the model and the number of particles (optional)
   path-0001-trace.csv ...   one per path in result.json
@@ -10,6 +11,7 @@ Reads from DIR what `lanescape path`, `lanescape endpoints`, `lanescape diffusio
   endpoints-trace.csv, radial-distribution.csv     where end points were made
   diffusion.csv             correlations and displacements
   densification.csv         growth at constant energy
+  profiles.csv              density and states of a slab
   scan.csv, holes.csv, errors.csv     cost of insertion, sizes of holes, how errors shrink
 
 Writes into DIR:
@@ -21,6 +23,7 @@ Writes into DIR:
                       compressibility and collision rate
   densification.png   energy, pressure, temperature and excess energy against density; of the Lennard-Jones model with long-range
                       corrections three equations of state from the first row's density and temperature on, at their constant energy
+  profiles.png        density and mean state probabilities along a slab
   insertion-cost.png       evaluations by method and tolerance against density, and against temperature where a density has several
                            (the three highest such densities)
   insertion-distance.png   mean and largest distance between start and place against density
@@ -44,6 +47,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocato
 from matplotlib.transforms import blended_transform_factory
 
 import plot_insertion
+import plot_slab
 from plot_style import (BLUE, GREEN, GREY, PAIR_STYLES, PURPLE, VERMILLION, Unusable, legend_above, letter, read_result, read_run_file,
                         read_table, read_text, save, system_parts)
 
@@ -535,8 +539,10 @@ def draw_folder(folder):
         equilibration = trace, read_table(folder / "radial-distribution.csv", ["r"])
     diffusion = read_table(folder / "diffusion.csv", ["time"]) if (folder / "diffusion.csv").exists() else None
     insertion = plot_insertion.read_insertion(folder)
-    if not paths and equilibration is None and diffusion is None and not insertion:
-        raise Unusable(f"{folder}: neither paths in result.json nor a table of end points, diffusion or insertion: nothing to draw")
+    slab = read_table(folder / "profiles.csv", ["z", "density", "sites"]) if (folder / "profiles.csv").exists() else None
+    if not paths and equilibration is None and diffusion is None and slab is None and not insertion:
+        raise Unusable(
+            f"{folder}: neither paths in result.json nor a table of end points, diffusion, insertion or a slab: nothing to draw")
     made = {**result, "model": result.get("model") or run.get("model", "")}
     temperature = target_temperature(run)
     for path in paths:
@@ -547,6 +553,8 @@ def draw_folder(folder):
     if diffusion is not None:
         draw_diffusion(folder, diffusion, made, temperature)
     plot_insertion.draw_insertion(folder, insertion, made, run)
+    if slab is not None:
+        plot_slab.draw_slab(folder, slab)
     if equilibration is not None and "compressibility" in equilibration[0]:
         if len(equilibration[0]["time"]) > 0:
             draw_hard_equilibration(folder, *equilibration, made, paths[0]["particles"] if paths else None)

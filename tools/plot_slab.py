@@ -1,13 +1,4 @@
-#!/usr/bin/python3
-"""Draw the profiles of a slab: tools/plot_slab.py DIR
-
-Reads DIR/profiles.csv as state_slab writes it and writes DIR/profiles.png: density along z, and beneath it the probability of each
-state of the sites there. Exit status 0, or 2 with one line on stderr when the file is missing or cannot be read.
-"""
-
-import csv
-import sys
-from pathlib import Path
+"""Figure of `lanescape slab`: the density along z, and beneath it the mean probability of each state of the sites there."""
 
 import matplotlib
 
@@ -19,13 +10,8 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")  # Okabe and Ito
 FEW = 20  # sites in a bin, all samples together: a mean of fewer says little
 
 
-def read(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
-
-
-def draw(profiles, path):
+def draw_slab(folder, profiles):
+    """Write profiles.png from the columns of profiles.csv."""
     figure, (upper, lower) = plt.subplots(2, 1, sharex=True, figsize=(6.4, 5.2), layout="constrained")
     z = profiles["z"]
     upper.plot(z, profiles["density"], color="#595959")
@@ -42,21 +28,5 @@ def draw(profiles, path):
     lower.legend(frameon=False, loc="center left", bbox_to_anchor=(1.0, 0.5))
     for axes in (upper, lower):
         axes.spines[["top", "right"]].set_visible(False)
-    figure.savefig(path, dpi=150)
-
-
-def main():
-    if len(sys.argv) != 2:
-        sys.exit(__doc__.splitlines()[0])
-    folder = Path(sys.argv[1])
-    try:
-        profiles = read(folder / "profiles.csv")
-        draw(profiles, folder / "profiles.png")
-    except (OSError, KeyError, IndexError, ValueError) as error:
-        print(f"plot_slab.py: {folder / 'profiles.csv'}: {error}: a table written by state_slab is needed", file=sys.stderr)
-        return 2
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+    figure.savefig(folder / "profiles.png", dpi=150)
+    plt.close(figure)

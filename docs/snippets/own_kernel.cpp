@@ -51,10 +51,9 @@ void my_gradient(const PairInput& in, double* gradient, PairOutput& out) noexcep
           const double d[3] = {nearest[0] + a * edge[0], nearest[1] + b * edge[1], nearest[2] + c * edge[2]};
           const double r2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
           if (!(r2 < u.cutoff_squared)) continue;
-          const double rinv6 = 1.0 / (r2 * r2 * r2);
-          const double c12 = u.coefficient[0], c6 = u.coefficient[1], shift = u.coefficient[2];
+          const double rinv6 = 1.0 / (r2 * r2 * r2), c12 = u.coefficient[0], c6 = u.coefficient[1];
           const double virial = (12.0 * c12 * rinv6 - 6.0 * c6) * rinv6;  // -r u'(r)
-          out.energy += (c12 * rinv6 - c6) * rinv6 - shift;
+          out.energy += (c12 * rinv6 - c6) * rinv6 - u.coefficient[2];
           out.virial += virial;
           for (std::size_t k = 0; k < 3; ++k) {
             const double force = virial / r2 * d[k] * scale[k];

@@ -43,7 +43,7 @@ struct SphereContacts {
   double *force_x, *force_y, *force_z;  // scratch for forces: the list's count
 };
 
-// Fictitious potential between overlapping spheres, whose forces say where to go (docs/ARCHITECTURE.md).
+// Fictitious potential between overlapping spheres; its forces give the direction of avoidance ([G] Eqs. 3.16-3.33).
 enum class ContactPotential : std::uint32_t { harmonic, linear, cubic };
 
 }  // namespace lanescape::kernels

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
 #include "core/error.hpp"
@@ -19,24 +20,32 @@ constexpr NamedModel named_models[] = {{"kob-andersen", [] { return Model(kob_an
                                        {"lennard-jones", [] { return Model(lennard_jones()); }},
                                        {"wca", [] { return Model(wca()); }},
                                        {"wahnstrom", [] { return Model(wahnstrom()); }},
-                                       {"polydisperse", [] { return Model(one_component(pair_form("polydisperse"))); }},
-                                       {"mie", [] { return Model(one_component(pair_form("mie"))); }},
-                                       {"inverse-power", [] { return Model(one_component(pair_form("inverse-power"))); }},
-                                       {"harmonic", [] { return Model(one_component(pair_form("harmonic"))); }},
-                                       {"hertzian", [] { return Model(one_component(pair_form("hertzian"))); }},
                                        {"hard-sphere", [] { return Model(hard_sphere()); }},
                                        {"hard-sphere-binary", [] { return Model(hard_sphere_binary()); }},
                                        {"ucg", [] { return Model(liquid_vapour()); }}};
 
+// A potential is a model of one component under its own word, if no number of it has to be given.
+bool is_named(const PairForm& form) {
+  return &form != &lennard_jones_form() &&
+         std::all_of(form.numbers.begin(), form.numbers.end(), [](const FormNumber& number) { return number.preset.has_value(); });
+}
+
 }  // namespace
 
-Model named_model(std::string_view name) {
+std::string model_names() {
   std::string names;
-  for (const NamedModel& model : named_models) {
+  for (const NamedModel& model : named_models) names += fmt::format("{}{}", names.empty() ? "" : ", ", model.name);
+  for (const PairForm& form : pair_forms())
+    if (is_named(form)) names += fmt::format(", {}", form.word);
+  return names;
+}
+
+Model named_model(std::string_view name) {
+  for (const NamedModel& model : named_models)
     if (name == model.name) return model.make();
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", model.name);
-  }
-  throw_bad_input(fmt::format("unknown model '{}': allowed are {}", name, names));
+  for (const PairForm& form : pair_forms())
+    if (name == form.word && is_named(form)) return one_component(form);
+  throw_bad_input(fmt::format("unknown model '{}': allowed are {}", name, model_names()));
 }
 
 const Mixture& mixture_of(const Model& model) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <variant>
 
@@ -12,6 +13,8 @@ namespace lanescape {
 // The model behind a name or a model file.
 using Model = std::variant<PairModel, HardSphereModel, StateMixtureModel>;
 
+// The names of all there are, separated by commas.
+std::string model_names();
 // The model of a name; any other throws Error(bad_input) naming all there are.
 Model named_model(std::string_view name);
 const Mixture& mixture_of(const Model& model);

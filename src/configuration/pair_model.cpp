@@ -4,41 +4,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
+#include "core/enum_words.hpp"
 #include "core/error.hpp"
 
 namespace lanescape {
 
 namespace {
 
-constexpr std::pair<Truncation, const char*> truncation_words[] = {{Truncation::shifted, "shifted"},
-                                                                   {Truncation::plain, "plain"},
-                                                                   {Truncation::tail, "tail"},
-                                                                   {Truncation::shifted_force, "shifted-force"},
-                                                                   {Truncation::smooth, "smooth"}};
+constexpr EnumWord<ImageRule> image_rules[] = {{ImageRule::all, "all"}, {ImageRule::minimum, "minimum"}};
+constexpr EnumWord<Truncation> truncations[] = {{Truncation::shifted, "shifted"},
+                                                {Truncation::plain, "plain"},
+                                                {Truncation::tail, "tail"},
+                                                {Truncation::shifted_force, "shifted-force"},
+                                                {Truncation::smooth, "smooth"}};
 
 }  // namespace
 
-ImageRule parse_image_rule(std::string_view word) {
-  if (word == "all") return ImageRule::all;
-  if (word == "minimum") return ImageRule::minimum;
-  throw_bad_input(fmt::format("unknown image rule '{}': allowed are all, minimum", word));
-}
-
-Truncation parse_truncation(std::string_view word) {
-  for (const auto& [truncation, name] : truncation_words)
-    if (word == name) return truncation;
-  throw_bad_input(fmt::format("unknown truncation '{}': allowed are shifted, plain, tail, shifted-force, smooth", word));
-}
-
-const char* to_string(ImageRule rule) { return rule == ImageRule::all ? "all" : "minimum"; }
-
-const char* to_string(Truncation truncation) {
-  for (const auto& [value, name] : truncation_words)
-    if (value == truncation) return name;
-  return "";
-}
+ImageRule parse_image_rule(std::string_view word) { return parse_word(image_rules, "image rule", word); }
+Truncation parse_truncation(std::string_view word) { return parse_word(truncations, "truncation", word); }
+const char* to_string(ImageRule rule) { return word_of(image_rules, rule); }
+const char* to_string(Truncation truncation) { return word_of(truncations, truncation); }
 
 double PairModel::largest_cutoff() const {
   double largest = 0.0;

@@ -9,7 +9,7 @@
 
 namespace lanescape {
 
-// Which periodic images of a pair interact (docs/ARCHITECTURE.md, "Small boxes").
+// Which periodic images of a pair interact (src/interaction/README.md, "Small boxes").
 enum class ImageRule { all, minimum };
 // How u(r) ends at the cutoff.
 enum class Truncation {

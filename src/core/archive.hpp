@@ -28,4 +28,12 @@ class Archive {
   virtual void leave() = 0;
 };
 
+// An enumeration as a number.
+template <class Enum>
+void exchange_enum(Archive& archive, std::string_view name, Enum& value) {
+  auto number = static_cast<std::uint64_t>(value);
+  archive.field(name, number);
+  value = static_cast<Enum>(number);
+}
+
 }  // namespace lanescape

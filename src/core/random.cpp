@@ -43,6 +43,10 @@ double CounterRandom::normal(std::uint64_t step, std::uint32_t particle, std::ui
   return std::sqrt(-2.0 * std::log(radius)) * std::cos(2.0 * std::numbers::pi * angle);
 }
 
+std::array<double, 3> CounterRandom::velocity(double width, std::uint64_t step, std::uint32_t particle, std::uint32_t draw) const {
+  return {width * normal(step, particle, draw), width * normal(step, particle, draw + 1), width * normal(step, particle, draw + 2)};
+}
+
 std::array<double, 3> CounterRandom::uniform_point(std::uint64_t step, std::uint32_t particle, std::uint32_t draw) const {
   const auto r = draw_block(seed_, stream_, step, particle, draw);
   const auto fraction = [](std::uint32_t bits) { return (static_cast<double>(bits) + 0.5) * 0x1p-32; };

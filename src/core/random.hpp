@@ -28,6 +28,8 @@ class CounterRandom {
   double uniform(std::uint64_t step, std::uint32_t particle, std::uint32_t draw = 0) const;
   // Standard normal (Box-Muller).
   double normal(std::uint64_t step, std::uint32_t particle, std::uint32_t draw = 0) const;
+  // Three components from Maxwell's distribution of width sqrt(T/m): normal() with draw, draw + 1 and draw + 2.
+  std::array<double, 3> velocity(double width, std::uint64_t step, std::uint32_t particle, std::uint32_t draw = 0) const;
   // Three numbers uniform in (0, 1), 32 bits each, from one block.
   std::array<double, 3> uniform_point(std::uint64_t step, std::uint32_t particle, std::uint32_t draw = 0) const;
   // Uniform in [0, n), n > 0.

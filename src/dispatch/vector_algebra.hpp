@@ -61,11 +61,6 @@ class VectorAlgebra {
   void add_particle_lengths(AlignedArray& lengths, const AlignedArray& from, const AlignedArray& to) const {
     table_->add_particle_lengths(lengths.data(), from.data(), to.data(), lengths.size());
   }
-  // Of a collision-avoidance step: kernels::KernelTable::sphere_avoidance_trial.
-  std::size_t avoidance_trial(AlignedArray& trial, const AlignedArray& position, AlignedArray& sum, AlignedArray& force,
-                              double step) const {
-    return table_->sphere_avoidance_trial(trial.data(), position.data(), sum.data(), force.data(), step, trial.size() / 3);
-  }
 
  private:
   // A multiple of slot_padding; a hundred kilobytes, beside which the start of a thread's work is nothing.

@@ -220,9 +220,7 @@ void EndPointGenerator::step() {
 
 void EndPointGenerator::exchange(Archive& archive) {
   verlet_.exchange(archive);
-  std::uint64_t phase = static_cast<std::uint64_t>(phase_);
-  archive.field("phase", phase);
-  phase_ = static_cast<Phase>(phase);
+  exchange_enum(archive, "phase", phase_);
   archive.field("phase_start", phase_start_);
   archive.field("checks", checks_);
   archive.field("check_samples", check_samples_);

@@ -45,11 +45,10 @@ EventDriven::EventDriven(const Configuration& start, std::vector<double> masses,
 void EventDriven::draw_velocities(std::uint64_t seed) {
   const CounterRandom random(seed, RandomStream::velocities);
   for (std::size_t i = 0; i < size(); ++i) {
-    const double width = 1.0 / std::sqrt(masses_[i]);
-    const auto particle = static_cast<std::uint32_t>(i);
-    spheres_[i].vx = width * random.normal(0, particle, 0);
-    spheres_[i].vy = width * random.normal(0, particle, 1);
-    spheres_[i].vz = width * random.normal(0, particle, 2);
+    const auto velocity = random.velocity(1.0 / std::sqrt(masses_[i]), 0, static_cast<std::uint32_t>(i));
+    spheres_[i].vx = velocity[0];
+    spheres_[i].vy = velocity[1];
+    spheres_[i].vz = velocity[2];
   }
   rescale();
 }

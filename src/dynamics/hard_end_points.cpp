@@ -119,9 +119,7 @@ void HardEndPointGenerator::exchange(Archive& archive) {
   archive.enter("dynamics");
   dynamics_.exchange(archive);
   archive.leave();
-  std::uint64_t phase = static_cast<std::uint64_t>(phase_);
-  archive.field("phase", phase);
-  phase_ = static_cast<Phase>(phase);
+  exchange_enum(archive, "phase", phase_);
   archive.field("phase_start", phase_start_);
   archive.field("virial_start", virial_start_);
   archive.field("time_start", time_start_);

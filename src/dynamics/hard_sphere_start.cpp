@@ -10,6 +10,7 @@
 
 #include "configuration/lattice.hpp"
 #include "configuration/particle_layout.hpp"
+#include "core/enum_words.hpp"
 #include "core/error.hpp"
 #include "dynamics/contraction.hpp"
 #include "dynamics/event_driven.hpp"
@@ -108,27 +109,15 @@ bool any_overlap(const Configuration& spheres, const kernels::KernelTable& table
   return HardSphereOverlap(spheres.box, layout, spheres.radii, table).any_overlap(layout.to_slots(spheres.positions));
 }
 
+constexpr EnumWord<StartMethod> start_methods[] = {{StartMethod::automatic, "auto"},
+                                                   {StartMethod::lattice, "lattice"},
+                                                   {StartMethod::contraction, "contraction"},
+                                                   {StartMethod::growth, "growth"}};
+
 }  // namespace
 
-StartMethod parse_start_method(std::string_view word) {
-  for (const StartMethod method : {StartMethod::automatic, StartMethod::lattice, StartMethod::contraction, StartMethod::growth})
-    if (word == to_string(method)) return method;
-  throw_bad_input(fmt::format("unknown start method '{}': allowed are auto, lattice, contraction, growth", word));
-}
-
-const char* to_string(StartMethod method) {
-  switch (method) {
-    case StartMethod::automatic:
-      return "auto";
-    case StartMethod::lattice:
-      return "lattice";
-    case StartMethod::contraction:
-      return "contraction";
-    case StartMethod::growth:
-      return "growth";
-  }
-  return "";
-}
+StartMethod parse_start_method(std::string_view word) { return parse_word(start_methods, "start method", word); }
+const char* to_string(StartMethod method) { return word_of(start_methods, method); }
 
 std::optional<Configuration> make_hard_sphere_start(const HardSphereModel& model, std::size_t particles, double packing_fraction,
                                                     StartMethod method, std::uint64_t seed, Isa isa, RunMonitor& monitor) {

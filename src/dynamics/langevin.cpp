@@ -28,14 +28,14 @@ Langevin::Langevin(SoftLandscape& landscape, const Mixture& model, const Particl
       velocity_(position_.size(), 0.0),
       gradient_(position_.size(), 0.0) {
   options.check();
-  const CounterRandom maxwell(options.seed, RandomStream::velocities);
+  const CounterRandom random(options.seed, RandomStream::velocities);
   for (std::size_t s = 0; s < layout.blocks().size(); ++s)
     for (std::size_t k = layout.blocks()[s].begin; k < layout.blocks()[s].begin + layout.blocks()[s].count; ++k) {
       const double mass = model.species[s].mass;
+      const auto velocity = random.velocity(std::sqrt(options.temperature / mass), 0, static_cast<std::uint32_t>(slots_.size()));
       for (std::uint32_t axis = 0; axis < 3; ++axis) {
         kick_[axis * layout.slots() + k] = -0.5 * options.time_step / mass;
-        velocity_[axis * layout.slots() + k] =
-            std::sqrt(options.temperature / mass) * maxwell.normal(0, static_cast<std::uint32_t>(slots_.size()), axis);
+        velocity_[axis * layout.slots() + k] = velocity[axis];
       }
       slots_.push_back(k);
       masses_.push_back(mass);

@@ -33,11 +33,11 @@ void VelocityVerlet::draw_velocities(double temperature, std::uint64_t seed) {
   std::size_t particle = 0;
   for (std::size_t s = 0; s < layout_->blocks().size(); ++s) {
     const auto& block = layout_->blocks()[s];
-    for (std::size_t k = block.begin; k < block.begin + block.count; ++k, ++particle)
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        velocity_[axis * layout_->slots() + k] =
-            std::sqrt(temperature / masses_[s]) *
-            random.normal(0, static_cast<std::uint32_t>(particle), static_cast<std::uint32_t>(axis));
+    const double width = std::sqrt(temperature / masses_[s]);
+    for (std::size_t k = block.begin; k < block.begin + block.count; ++k, ++particle) {
+      const auto velocity = random.velocity(width, 0, static_cast<std::uint32_t>(particle));
+      for (std::size_t axis = 0; axis < 3; ++axis) velocity_[axis * layout_->slots() + k] = velocity[axis];
+    }
   }
   rescale_to(temperature);
 }

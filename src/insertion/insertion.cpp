@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/enum_words.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "insertion/search.hpp"
@@ -20,15 +21,14 @@ constexpr double least_relative_target = 1e-6;
 // Searches that run at the same time. Not the number of threads, which no result may depend on.
 constexpr std::size_t batch = 32;
 
-template <class Word, std::size_t n>
-Word parse_word(std::string_view word, const char* what, const std::array<Word, n>& words) {
-  std::string allowed;
-  for (const Word w : words) {
-    if (word == to_string(w)) return w;
-    allowed += (allowed.empty() ? "" : ", ") + std::string(to_string(w));
-  }
-  throw_bad_input(fmt::format("{} '{}' is not allowed: {}", what, word, allowed));
-}
+constexpr EnumWord<InsertionMethod> methods[] = {{InsertionMethod::usher, "usher"},
+                                                 {InsertionMethod::usher_indirect, "usher-indirect"},
+                                                 {InsertionMethod::usher_near, "usher-near"},
+                                                 {InsertionMethod::screened, "screened"},
+                                                 {InsertionMethod::descent, "descent"}};
+constexpr EnumWord<ErrorMeasure> measures[] = {
+    {ErrorMeasure::relative, "relative"}, {ErrorMeasure::absolute, "absolute"}, {ErrorMeasure::running_mean, "running-mean"}};
+constexpr EnumWord<RegionWall> walls[] = {{RegionWall::reflect, "reflect"}, {RegionWall::well, "well"}};
 
 void remember(std::vector<double>& values, double value, std::size_t most) {
   values.push_back(value);
@@ -37,49 +37,12 @@ void remember(std::vector<double>& values, double value, std::size_t most) {
 
 }  // namespace
 
-const char* to_string(InsertionMethod method) {
-  switch (method) {
-    case InsertionMethod::usher:
-      return "usher";
-    case InsertionMethod::usher_indirect:
-      return "usher-indirect";
-    case InsertionMethod::usher_near:
-      return "usher-near";
-    case InsertionMethod::screened:
-      return "screened";
-    case InsertionMethod::descent:
-      return "descent";
-  }
-  return "";
-}
-
-InsertionMethod parse_insertion_method(std::string_view word) {
-  using enum InsertionMethod;
-  return parse_word(word, "method", std::array{usher, usher_indirect, usher_near, screened, descent});
-}
-
-const char* to_string(ErrorMeasure measure) {
-  switch (measure) {
-    case ErrorMeasure::relative:
-      return "relative";
-    case ErrorMeasure::absolute:
-      return "absolute";
-    case ErrorMeasure::running_mean:
-      return "running-mean";
-  }
-  return "";
-}
-
-ErrorMeasure parse_error_measure(std::string_view word) {
-  using enum ErrorMeasure;
-  return parse_word(word, "measure of the error", std::array{relative, absolute, running_mean});
-}
-
-const char* to_string(RegionWall wall) { return wall == RegionWall::reflect ? "reflect" : "well"; }
-
-RegionWall parse_region_wall(std::string_view word) {
-  return parse_word(word, "wall of a region", std::array{RegionWall::reflect, RegionWall::well});
-}
+const char* to_string(InsertionMethod method) { return word_of(methods, method); }
+InsertionMethod parse_insertion_method(std::string_view word) { return parse_word(methods, "method", word); }
+const char* to_string(ErrorMeasure measure) { return word_of(measures, measure); }
+ErrorMeasure parse_error_measure(std::string_view word) { return parse_word(measures, "measure of the error", word); }
+const char* to_string(RegionWall wall) { return word_of(walls, wall); }
+RegionWall parse_region_wall(std::string_view word) { return parse_word(walls, "wall of a region", word); }
 
 void Region::check(const Box& box) const {
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -219,9 +182,9 @@ std::vector<Insertion> insert_particles(ProbeField& fluid, const InsertionOption
 
 std::array<double, 3> maxwellian_velocity(const CounterRandom& random, std::uint64_t search, double temperature, double mass,
                                           const std::array<double, 3>& mean) {
-  std::array<double, 3> velocity = mean;
-  for (std::uint32_t axis = 0; axis < 3; ++axis)
-    velocity[axis] += std::sqrt(temperature / mass) * random.normal(search, 0, 3 + axis);  // draws 0 to 2 are its places
+  // Draws 0 to 2 are the positions of its trials.
+  std::array<double, 3> velocity = random.velocity(std::sqrt(temperature / mass), search, 0, 3);
+  for (std::size_t axis = 0; axis < 3; ++axis) velocity[axis] += mean[axis];
   return velocity;
 }
 

@@ -4,17 +4,18 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
+#include "core/enum_words.hpp"
 
 namespace lanescape {
 
-const char* to_string(RemovalRule rule) { return rule == RemovalRule::random ? "random" : "least-disturbance"; }
+namespace {
 
-RemovalRule parse_removal_rule(std::string_view word) {
-  for (const RemovalRule rule : {RemovalRule::random, RemovalRule::least_disturbance})
-    if (word == to_string(rule)) return rule;
-  throw_bad_input("removal '" + std::string(word) + "' is not allowed: random, least-disturbance");
-}
+constexpr EnumWord<RemovalRule> rules[] = {{RemovalRule::random, "random"}, {RemovalRule::least_disturbance, "least-disturbance"}};
+
+}  // namespace
+
+const char* to_string(RemovalRule rule) { return word_of(rules, rule); }
+RemovalRule parse_removal_rule(std::string_view word) { return parse_word(rules, "removal", word); }
 
 std::optional<Removal> choose_removal(const PairModel& model, const Configuration& fluid, int species, RemovalRule rule,
                                       const std::optional<Region>& region, double energy, const CounterRandom& random,

@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -110,6 +112,20 @@ class GroupStack {
   std::vector<std::string> names_;
   std::vector<Handle> groups_;
 };
+
+// An archive's implementation with its file opened, under the lock. If that fails its handles are released under the lock too.
+template <class Impl>
+std::unique_ptr<Impl> opened(const std::filesystem::path& path) {
+  auto impl = std::make_unique<Impl>(path);
+  const Session session;
+  try {
+    impl->open();
+  } catch (...) {
+    impl.reset();
+    throw;
+  }
+  return impl;
+}
 
 [[noreturn]] void throw_misuse(const std::string& message);
 // Names are links: a slash or a dot would lead elsewhere.

@@ -111,15 +111,7 @@ struct Hdf5Reader::Impl {
   GroupStack groups_;
 };
 
-Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {
-  const Session session;
-  try {
-    impl_->open();
-  } catch (...) {
-    impl_.reset();  // still under the lock
-    throw;
-  }
-}
+Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) : impl_(opened<Impl>(path)) {}
 
 Hdf5Reader::~Hdf5Reader() {
   const Session session;

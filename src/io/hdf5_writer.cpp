@@ -130,15 +130,7 @@ struct Hdf5Writer::Impl {
   GroupStack groups_;
 };
 
-Hdf5Writer::Hdf5Writer(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {
-  const Session session;
-  try {
-    impl_->open();
-  } catch (...) {
-    impl_.reset();  // still under the lock
-    throw;
-  }
-}
+Hdf5Writer::Hdf5Writer(const std::filesystem::path& path) : impl_(opened<Impl>(path)) {}
 
 Hdf5Writer::~Hdf5Writer() {
   const Session session;

@@ -23,6 +23,9 @@ class HardLandscape {
   virtual ContactPairs find_contacts(const AlignedArray& position) = 0;
   // Adds the fictitious forces between them to `force`.
   virtual void add_contact_forces(kernels::ContactPotential potential, AlignedArray& force) = 0;
+  // HardSphereList::avoidance_trial().
+  virtual std::size_t avoidance_trial(AlignedArray& trial, const AlignedArray& position, AlignedArray& sum, AlignedArray& force,
+                                      double step) const = 0;
   // How deep spheres overlap, at least 0 [sigma]; from scratch, and slower.
   virtual double violation(const AlignedArray& position) = 0;
 };

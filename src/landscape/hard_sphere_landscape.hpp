@@ -36,6 +36,10 @@ class HardSphereLandscape final : public HardLandscape {
   void add_contact_forces(kernels::ContactPotential potential, AlignedArray& force) override {
     list_.add_contact_forces(potential, force);
   }
+  std::size_t avoidance_trial(AlignedArray& trial, const AlignedArray& position, AlignedArray& sum, AlignedArray& force,
+                              double step) const override {
+    return list_.avoidance_trial(trial, position, sum, force, step);
+  }
   double violation(const AlignedArray& position) override { return std::max(0.0, -spheres_.smallest_gap(position)); }
 
   const HardSphereList& list() const { return list_; }

@@ -138,21 +138,17 @@ const double* DiffusionAccumulator::curve(Curve which, std::size_t trajectory, s
 }
 
 template <class Value>
-BlockEstimate DiffusionAccumulator::over_trajectories(Value value) const {
-  const std::size_t blocks = trajectories();
-  if (blocks == 0) return {};
-  const double count = static_cast<double>(blocks);
-  double mean = 0.0, squares = 0.0;
-  for (std::size_t b = 0; b < blocks; ++b) mean += value(b) / count;
-  for (std::size_t b = 0; b < blocks; ++b) squares += std::pow(value(b) - mean, 2);
-  return {mean, blocks > 1 ? std::optional(std::sqrt(squares / (count - 1.0) / count)) : std::nullopt};
+Estimate DiffusionAccumulator::over_trajectories(Value value) const {
+  std::vector<double> values(trajectories());
+  for (std::size_t k = 0; k < values.size(); ++k) values[k] = value(k);
+  return estimate_mean(values);
 }
 
-BlockEstimate DiffusionAccumulator::at(Curve which, std::size_t species, std::size_t point) const {
+Estimate DiffusionAccumulator::at(Curve which, std::size_t species, std::size_t point) const {
   return over_trajectories([&](std::size_t b) { return curve(which, b, species)[point]; });
 }
 
-BlockEstimate DiffusionAccumulator::msd_diffusion(std::size_t species) const {
+Estimate DiffusionAccumulator::msd_diffusion(std::size_t species) const {
   return over_trajectories([&](std::size_t b) {
     const double* end = curve(displacement, b, species) + points_;
     const double difference = points_ < 3 ? end[-1] - end[-2] : 1.5 * end[-1] - 2.0 * end[-2] + 0.5 * end[-3];
@@ -160,7 +156,7 @@ BlockEstimate DiffusionAccumulator::msd_diffusion(std::size_t species) const {
   });
 }
 
-BlockEstimate DiffusionAccumulator::long_time_diffusion(std::size_t species) const {
+Estimate DiffusionAccumulator::long_time_diffusion(std::size_t species) const {
   return over_trajectories(
       [&](std::size_t b) { return fitted_slope(curve(displacement, b, species), (points_ - 1) / 2, points_) / time(1) / 6.0; });
 }

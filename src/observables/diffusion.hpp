@@ -8,6 +8,7 @@
 
 #include "configuration/particle_layout.hpp"
 #include "core/archive.hpp"
+#include "observables/statistics.hpp"
 
 namespace lanescape {
 
@@ -53,13 +54,6 @@ class TrajectoryRecord {
   std::vector<double> positions_;  // such rows at every stride()
 };
 
-// A mean over trajectories and its standard error, each trajectory being one block. Of a single trajectory there is no error:
-// parts of it as long as a window are too few to be blocks, and shorter ones share most of their windows.
-struct BlockEstimate {
-  double value = 0.0;
-  std::optional<double> error;
-};
-
 // Whether t_max is long enough for the mean squared displacement to tell the diffusion coefficient.
 enum class DiffusionRegime {
   diffusive,
@@ -82,22 +76,25 @@ class DiffusionAccumulator {
   std::size_t species() const { return counts_.size(); }
   const DiffusionWindow& window() const { return window_; }
 
+  // Estimates are means over trajectories, each of which is one independent value. A single one gives no error: its parts as long
+  // as a window are too few, and shorter parts share most of their windows.
+
   // Curves at times 0, ..., t_max: C(t) = <v(0).v(t)>, D(t) = (1/3) int_0^t C dt' by Simpson's rule over every record, and
   // <|r(t) - r(0)|^2>, whose origins are those at multiples of stride().
   std::size_t points() const { return points_; }
   double time(std::size_t point) const;
-  BlockEstimate velocity_correlation(std::size_t species, std::size_t point) const { return at(correlation, species, point); }
-  BlockEstimate diffusion_integral(std::size_t species, std::size_t point) const { return at(integral, species, point); }
-  BlockEstimate squared_displacement(std::size_t species, std::size_t point) const { return at(displacement, species, point); }
+  Estimate velocity_correlation(std::size_t species, std::size_t point) const { return at(correlation, species, point); }
+  Estimate diffusion_integral(std::size_t species, std::size_t point) const { return at(integral, species, point); }
+  Estimate squared_displacement(std::size_t species, std::size_t point) const { return at(displacement, species, point); }
 
   // D(t_max).
-  BlockEstimate vacf_diffusion(std::size_t species) const { return diffusion_integral(species, points_ - 1); }
+  Estimate vacf_diffusion(std::size_t species) const { return diffusion_integral(species, points_ - 1); }
   // The mean squared displacement's slope at t_max over 6, by the three-point backward difference: a line through the last tenth
   // has the slope at 0.95 t_max, and its smaller scatter comes no closer to D(t_max). What is left of the difference is that the
   // origins of (1/3) <v(t_max).(r(t_max) - r(0))> reach one window further than those of C.
-  BlockEstimate msd_diffusion(std::size_t species) const;
+  Estimate msd_diffusion(std::size_t species) const;
   // Slope over 6 of the line through the mean squared displacement in [t_max/2, t_max].
-  BlockEstimate long_time_diffusion(std::size_t species) const;
+  Estimate long_time_diffusion(std::size_t species) const;
 
   // d ln <|dr|^2>/d ln t at t_max: 2 in free flight, 1 in diffusion, less in a cage, 0 where nothing moves.
   double displacement_exponent(std::size_t species) const;
@@ -114,8 +111,8 @@ class DiffusionAccumulator {
   void add_positions(const TrajectoryRecord& record, std::size_t species, std::size_t column);
   const double* curve(Curve which, std::size_t trajectory, std::size_t species) const;
   template <class Value>
-  BlockEstimate over_trajectories(Value value) const;
-  BlockEstimate at(Curve which, std::size_t species, std::size_t point) const;
+  Estimate over_trajectories(Value value) const;
+  Estimate at(Curve which, std::size_t species, std::size_t point) const;
 
   DiffusionWindow window_;
   std::vector<std::size_t> counts_;  // particles per species

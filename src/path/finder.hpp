@@ -7,9 +7,10 @@
 #include <string>
 
 #include "core/archive.hpp"
+#include "dispatch/vector_algebra.hpp"
 #include "path/path_statistics.hpp"
 #include "path/recorder.hpp"
-#include "stepper/direct.hpp"
+#include "stepper/stepper.hpp"
 
 namespace lanescape {
 
@@ -34,17 +35,18 @@ inline const char* to_string(Outcome outcome) {
 
 struct FinderOptions {
   std::uint64_t max_steps = 1'000'000'000;
-  // Accepted steps without progress after which a path is stalled; methods that make long detours multiply it (run/path_run.cpp).
+  // Accepted steps without progress after which a path is stalled; methods that make long detours multiply it
+  // (run/path_methods.cpp).
   std::uint64_t patience = 1000;
   std::size_t frames = 100;  // configurations kept between the two ends
 };
 
-// Walks from R_i to R_f with a stepper that makes direct steps and detours (PHYSICS 3). Everything the rest of the path depends
-// on is in its state; one call of step() is one accepted step.
-template <class Stepper>
+// Walks from R_i to R_f with a stepper that makes direct steps and detours (PHYSICS 3). The state holds everything that the rest of
+// the path depends on.
+template <Stepper Method>
 class PathFinder {
  public:
-  PathFinder(const VectorAlgebra& algebra, Stepper stepper, AlignedArray start, AlignedArray goal, std::size_t particles,
+  PathFinder(const VectorAlgebra& algebra, Method stepper, AlignedArray start, AlignedArray goal, std::size_t particles,
              const FinderOptions& options)
       : algebra_(&algebra),
         stepper_(std::move(stepper)),
@@ -61,7 +63,7 @@ class PathFinder {
   const std::string& reason() const { return reason_; }
   const PathStatistics& statistics() const { return statistics_; }
   const PathRecorder& recorder() const { return recorder_; }
-  const Stepper& stepper() const { return stepper_; }
+  const Method& stepper() const { return stepper_; }
   std::uint64_t direct_steps() const { return direct_steps_; }
   std::uint64_t detour_steps() const { return detour_steps_; }
   std::uint64_t steps() const { return direct_steps_ + detour_steps_; }
@@ -75,9 +77,7 @@ class PathFinder {
   }
 
   void exchange(Archive& archive) {
-    std::uint64_t outcome = static_cast<std::uint64_t>(outcome_);
-    archive.field("outcome", outcome);
-    outcome_ = static_cast<Outcome>(outcome);
+    exchange_enum(archive, "outcome", outcome_);
     archive.field("reason", reason_);
     archive.field("position", position_);
     archive.field("direct_steps", direct_steps_);
@@ -139,7 +139,7 @@ class PathFinder {
   }
 
   const VectorAlgebra* algebra_;
-  Stepper stepper_;
+  Method stepper_;
   FinderOptions options_;
   AlignedArray position_, goal_, to_goal_, next_;
   Outcome outcome_ = Outcome::running;

@@ -34,6 +34,11 @@ void PathStatistics::add_hop(const VectorAlgebra& algebra, const AlignedArray& f
   add_displacement(algebra, from, to);
 }
 
+std::vector<StepHistogram> PathStatistics::histograms() const {
+  const double share = 1.0 / static_cast<double>(participation_.size());
+  return {{"participation_ratio", share, share, participation_}, {"alpha_2", alpha2_width - 1.0, alpha2_width, alpha2_}};
+}
+
 void PathStatistics::exchange(Archive& archive) {
   archive.field("length", length_);
   archive.field("weighted_participation", weighted_participation_);

@@ -6,6 +6,7 @@
 
 #include "core/aligned_array.hpp"
 #include "core/archive.hpp"
+#include "core/step_histogram.hpp"
 #include "dispatch/vector_algebra.hpp"
 
 namespace lanescape {
@@ -31,6 +32,8 @@ class PathStatistics {
   // Over steps: how many had n/N, or alpha_2 = 0.6 N/n - 1, in each bin.
   const std::vector<std::uint64_t>& participation_histogram() const { return participation_; }
   const std::vector<std::uint64_t>& alpha2_histogram() const { return alpha2_; }
+  // Both, named: participation_ratio n/N and alpha_2.
+  std::vector<StepHistogram> histograms() const;
   // g_j = sum |dr_j| of each slot.
   const AlignedArray& particle_lengths() const { return particle_lengths_; }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -15,34 +14,11 @@
 namespace lanescape {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // Steps between insertions: fewer would make the neighbour list anew more often than it wears out by itself.
 constexpr std::uint64_t least_steps_per_event = 20;
 // Around one particle the fluid is uniform again at this distance [sigma].
 constexpr double correlation_length = 3.0;
 constexpr std::size_t row_numbers = 9;
-
-struct DensificationState {
-  FluidState fluid;
-  InsertionHistory history;
-  std::uint64_t steps = 0, inserted = 0, rows = 0, failed = 0;
-  double ledger = 0.0;  // total energy at the start and what insertions brought
-  std::vector<double> record;
-  double seconds = 0.0;
-
-  void exchange(Archive& archive) {
-    fluid.exchange(archive);
-    history.exchange(archive);
-    archive.field("steps", steps);
-    archive.field("inserted", inserted);
-    archive.field("rows", rows);
-    archive.field("failed", failed);
-    archive.field("ledger", ledger);
-    archive.field("record", record);
-    archive.field("run_seconds", seconds);
-  }
-};
 
 // Sums over the events of a row.
 struct RowSums {
@@ -57,58 +33,94 @@ struct RowSums {
   }
 };
 
-class Densification {
+// A growing fluid, a row of the record at a time.
+class Densification final : public ResumableWork {
  public:
-  Densification(const PairModel& model, const DensificationOptions& options, Isa isa, DensificationState& state,
-                std::size_t particles_at_start)
+  Densification(const PairModel& model, const FluidState& start, const DensificationOptions& options, Isa isa)
       : model_(&model),
         options_(&options),
         isa_(isa),
-        state_(&state),
-        volume_(state.fluid.configuration.box.volume()),
+        volume_(start.configuration.box.volume()),
         per_step_(options.rate * options.time_step * volume_),
         steps_per_event_(std::max(least_steps_per_event, static_cast<std::uint64_t>(std::ceil(1.0 / per_step_)))),
-        last_(static_cast<std::uint64_t>(std::llround(options.final_density * volume_)) - particles_at_start) {}
+        last_(static_cast<std::uint64_t>(std::llround(options.final_density * volume_)) - start.configuration.size()),
+        fluid_(start) {}
 
-  std::uint64_t last() const { return last_; }
-  // Inserted particles at the end of a row.
-  std::uint64_t goal(std::uint64_t row) const { return last_ * (row + 1) / options_->rows; }
+  bool finished() const override { return failed_ > 0 || rows_ == options_->rows; }
+  void advance(RunMonitor& monitor) override {
+    if (rows_ == 0) begin();
+    make_row();
+    monitor.progress("densification", static_cast<double>(inserted_), static_cast<double>(last_));
+  }
+  void exchange(Archive& archive) override {
+    fluid_.exchange(archive);
+    history_.exchange(archive);
+    archive.field("steps", steps_);
+    archive.field("inserted", inserted_);
+    archive.field("rows", rows_);
+    archive.field("failed", failed_);
+    archive.field("ledger", ledger_);
+    archive.field("record", record_);
+  }
 
-  // One row; false where an insertion found no place. The state is whole after each.
-  bool make_row() {
-    RowSums sums;
-    bool found = true;
-    auto fluid = moving();
-    while (found && state_->inserted < goal(state_->rows)) {
-      fluid->run(steps_per_event_);
-      state_->steps += steps_per_event_;
-      const auto due = static_cast<std::uint64_t>(per_step_ * static_cast<double>(state_->steps));
-      const std::uint64_t most = std::min(due, goal(state_->rows));
-      const double potential = sample(*fluid, sums);
-      drift_ = (potential + fluid->kinetic_energy() - state_->ledger) / particles();
-      if (most <= state_->inserted) continue;
-      const double excess = potential / particles(), temperature = fluid->temperature();
-      state_->fluid = fluid->state();
-      found = insert(most - state_->inserted, excess, temperature, sums);
-      fluid = moving();
+  DensificationResult result(bool interrupted) const {
+    DensificationResult result;
+    for (std::size_t k = 0; k + row_numbers <= record_.size(); k += row_numbers) {
+      const double* r = record_.data() + k;
+      result.rows.push_back({r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]});
     }
-    state_->fluid = fluid->state();
-    sums.finish(drift_, state_->record);
-    ++state_->rows;
-    state_->failed += found ? 0 : 1;
-    return found;
+    result.final_state = fluid_;
+    result.inserted = inserted_;
+    result.failures = failed_;
+    result.interrupted = interrupted;
+    result.seconds = clock().seconds();
+    return result;
   }
 
  private:
-  double particles() const { return static_cast<double>(state_->fluid.configuration.size()); }
+  void begin() {
+    MovingFluid fluid(*model_, fluid_, options_->time_step, isa_, options_->threads);
+    equilibrate(fluid, options_->temperature, options_->equilibration_steps);
+    fluid_ = fluid.state();
+    ledger_ = fluid.potential().energy + fluid.kinetic_energy();
+  }
+
+  // Inserted particles at the end of a row.
+  std::uint64_t goal(std::uint64_t row) const { return last_ * (row + 1) / options_->rows; }
+
+  // Ends early where an insertion found no position. The state is whole after each row.
+  void make_row() {
+    RowSums sums;
+    bool found = true;
+    auto fluid = moving();
+    while (found && inserted_ < goal(rows_)) {
+      fluid->run(steps_per_event_);
+      steps_ += steps_per_event_;
+      const auto due = static_cast<std::uint64_t>(per_step_ * static_cast<double>(steps_));
+      const std::uint64_t most = std::min(due, goal(rows_));
+      const double potential = sample(*fluid, sums);
+      drift_ = (potential + fluid->kinetic_energy() - ledger_) / particles();
+      if (most <= inserted_) continue;
+      const double excess = potential / particles(), temperature = fluid->temperature();
+      fluid_ = fluid->state();
+      found = insert(most - inserted_, excess, temperature, sums);
+      fluid = moving();
+    }
+    fluid_ = fluid->state();
+    sums.finish(drift_, record_);
+    ++rows_;
+    failed_ += found ? 0 : 1;
+  }
+
+  double particles() const { return static_cast<double>(fluid_.configuration.size()); }
   std::unique_ptr<MovingFluid> moving() const {
-    return std::make_unique<MovingFluid>(*model_, state_->fluid, options_->time_step, isa_, options_->threads);
+    return std::make_unique<MovingFluid>(*model_, fluid_, options_->time_step, isa_, options_->threads);
   }
 
   // The potential energy.
   double sample(MovingFluid& fluid, RowSums& sums) const {
     const MovingFluid::Potential potential = fluid.potential();
-    sums.time += static_cast<double>(state_->steps) * options_->time_step;
+    sums.time += static_cast<double>(steps_) * options_->time_step;
     sums.density += particles() / volume_;
     sums.temperature += fluid.temperature();
     sums.pressure += potential.pressure;
@@ -119,19 +131,19 @@ class Densification {
   }
 
   bool insert(std::uint64_t count, double excess, double temperature, RowSums& sums) {
-    ProbeField field(*model_, state_->fluid.configuration, options_->species, kernel_table(isa_));
+    ProbeField field(*model_, fluid_.configuration, options_->species, kernel_table(isa_));
     InsertionOptions insertion = options_->insertion;
     insertion.target = excess;
     const CounterRandom random(insertion.seed, RandomStream::insertion);
     const double mass = model_->species[static_cast<std::size_t>(options_->species)].mass;
-    for (const Insertion& one : insert_particles(field, insertion, count, state_->history, options_->threads)) {
+    for (const Insertion& one : insert_particles(field, insertion, count, history_, options_->threads)) {
       if (!one.found) return false;
-      const auto velocity = maxwellian_velocity(random, state_->inserted, temperature, mass);
+      const auto velocity = maxwellian_velocity(random, inserted_, temperature, mass);
       const double brought =
           one.energy + 0.5 * mass * (velocity[0] * velocity[0] + velocity[1] * velocity[1] + velocity[2] * velocity[2]);
-      state_->fluid.add(options_->species, one.position, velocity);
-      state_->ledger += brought;
-      ++state_->inserted;
+      fluid_.add(options_->species, one.position, velocity);
+      ledger_ += brought;
+      ++inserted_;
       sums.brought += brought;
       sums.evaluations += static_cast<double>(one.evaluations);
       ++sums.inserted;
@@ -142,24 +154,16 @@ class Densification {
   const PairModel* model_;
   const DensificationOptions* options_;
   Isa isa_;
-  DensificationState* state_;
   double volume_, per_step_;
-  std::uint64_t steps_per_event_, last_;
+  std::uint64_t steps_per_event_, last_;  // last_: inserted particles at the end
   double drift_ = 0.0;
-};
 
-DensificationResult result_of(const DensificationState& state) {
-  DensificationResult result;
-  for (std::size_t k = 0; k + row_numbers <= state.record.size(); k += row_numbers) {
-    const double* r = state.record.data() + k;
-    result.rows.push_back({r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]});
-  }
-  result.final_state = state.fluid;
-  result.inserted = state.inserted;
-  result.failures = state.failed;
-  result.seconds = state.seconds;
-  return result;
-}
+  FluidState fluid_;
+  InsertionHistory history_;
+  std::uint64_t steps_ = 0, inserted_ = 0, rows_ = 0, failed_ = 0;
+  double ledger_ = 0.0;  // total energy at the start and what insertions brought
+  std::vector<double> record_;
+};
 
 }  // namespace
 
@@ -191,31 +195,9 @@ void DensificationOptions::check(const FluidState& start) const {
 
 DensificationResult run_densification(const PairModel& model, const FluidState& start, const DensificationOptions& options, Isa isa,
                                       const CheckpointOptions& checkpoint, RunMonitor& monitor) {
-  const auto file = checkpoint.folder / "densification.h5";
   options.check(start);
-  DensificationState state{.fluid = start, .history = {}, .record = {}};
-  const bool resumed = checkpoint.enabled() && checkpoint.resume && load_checkpoint(file, state);
-  if (!resumed) {
-    MovingFluid fluid(model, start, options.time_step, isa, options.threads);
-    equilibrate(fluid, options.temperature, options.equilibration_steps);
-    state.fluid = fluid.state();
-    state.ledger = fluid.potential().energy + fluid.kinetic_energy();
-  }
-  Densification densification(model, options, isa, state, start.configuration.size());
-  bool interrupted = false;
-  auto last = Clock::now();
-  while (!interrupted && state.failed == 0 && state.rows < options.rows) {
-    densification.make_row();
-    const auto now = Clock::now();
-    state.seconds += std::chrono::duration<double>(now - last).count();
-    last = now;
-    monitor.progress("densification", static_cast<double>(state.inserted), static_cast<double>(densification.last()));
-    if (checkpoint.enabled()) save_checkpoint(file, state);
-    interrupted = monitor.stop_requested() && state.rows < options.rows;
-  }
-  DensificationResult result = result_of(state);
-  result.interrupted = interrupted;
-  return result;
+  Densification work(model, start, options, isa);
+  return work.result(run_to_end(work, "densification.h5", checkpoint, monitor));
 }
 
 }  // namespace lanescape

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/overloaded.hpp"
@@ -14,8 +14,6 @@
 
 namespace lanescape {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t records_per_report = 1000;
 
@@ -92,6 +90,9 @@ class SoftSource {
         generator_(landscape_, model, layout, layout.to_slots(start.positions), options.equilibration),
         gradient_(layout.dimension(), 0.0),
         steps_per_record_(static_cast<std::uint64_t>(std::lround(options.window.interval / options.equilibration.time_step))) {}
+  // The generator points to the landscape.
+  SoftSource(const SoftSource&) = delete;
+  SoftSource& operator=(const SoftSource&) = delete;
 
   double equilibrate() {
     using Phase = EndPointGenerator::Phase;
@@ -143,74 +144,70 @@ class SoftSource {
   double temperature_ = 0.0, pressure_ = 0.0;
 };
 
+// Equilibration and trajectories of a source. A trajectory is not kept half done: an interrupted one is repeated.
 template <class Source>
-struct DiffusionState {
-  Source source;
-  DiffusionAccumulator diffusion;
-  std::uint64_t equilibrated = 0, trajectories = 0;
-  double seconds = 0.0;
+class DiffusionWork final : public ResumableWork {
+ public:
+  template <class SourceModel>
+  DiffusionWork(const SourceModel& model, const ParticleLayout& layout, const Configuration& start,
+                const DiffusionRunOptions& options, Isa isa)
+      : source_(model, layout, start, options, isa),
+        diffusion_(layout, options.window),
+        record_(layout, options.window),
+        options_(&options) {}
 
-  void exchange(Archive& archive) {
-    source.exchange(archive);
-    diffusion.exchange(archive);
-    archive.field("equilibrated", equilibrated);
-    archive.field("trajectories", trajectories);
-    archive.field("run_seconds", seconds);
+  bool finished() const override { return source_.failed() || trajectories_ == options_->trajectories; }
+  void advance(RunMonitor& monitor) override {
+    if (equilibrated_ == 0) return equilibrate(monitor);
+    if (record_.records() == 0) source_.begin_trajectory();
+    do source_.record(record_);
+    while (!record_.full() && record_.records() % records_per_report != 0);
+    if (record_.full()) end_trajectory();
+    const double part = static_cast<double>(record_.records()) / static_cast<double>(options_->window.records);
+    monitor.progress("trajectories", static_cast<double>(trajectories_) + part, static_cast<double>(options_->trajectories));
   }
+  bool saveable() const override { return record_.records() == 0; }
+  bool save_due() const override { return equilibrated_ != 0; }
+  void exchange(Archive& archive) override {
+    source_.exchange(archive);
+    diffusion_.exchange(archive);
+    archive.field("equilibrated", equilibrated_);
+    archive.field("trajectories", trajectories_);
+  }
+
+  DiffusionRunResult result(bool interrupted) const {
+    DiffusionRunResult result{
+        .diffusion = diffusion_, .interrupted = interrupted, .equilibrated = !source_.failed(), .seconds = clock().seconds()};
+    source_.finish(result);
+    return result;
+  }
+
+ private:
+  void equilibrate(RunMonitor& monitor) {
+    const double part = source_.equilibrate();
+    equilibrated_ = part >= 1.0 ? 1 : 0;
+    monitor.progress("equilibration", part, 1.0);
+  }
+  void end_trajectory() {
+    diffusion_.add_trajectory(record_);
+    source_.end_trajectory();
+    record_.clear();
+    ++trajectories_;
+  }
+
+  Source source_;
+  DiffusionAccumulator diffusion_;
+  TrajectoryRecord record_;
+  const DiffusionRunOptions* options_;
+  std::uint64_t equilibrated_ = 0, trajectories_ = 0;
 };
 
 template <class Source, class SourceModel>
 DiffusionRunResult run(const SourceModel& model, const Configuration& start, const DiffusionRunOptions& options, Isa isa,
                        const CheckpointOptions& checkpoint, RunMonitor& monitor) {
   const ParticleLayout layout = ParticleLayout::in_space_order(start, model.species.size());
-  DiffusionState<Source> state{Source(model, layout, start, options, isa), DiffusionAccumulator(layout, options.window)};
-  const auto file = checkpoint.folder / "diffusion.h5";
-  if (checkpoint.enabled() && checkpoint.resume) load_checkpoint(file, state);
-  const auto save = [&] {
-    if (checkpoint.enabled()) save_checkpoint(file, state);
-  };
-  auto last = Clock::now();
-  const auto count_time = [&] {
-    const auto now = Clock::now();
-    state.seconds += std::chrono::duration<double>(now - last).count();
-    last = now;
-  };
-
-  bool interrupted = false;
-  while (state.equilibrated == 0 && !interrupted) {
-    const double part = state.source.equilibrate();
-    monitor.progress("equilibration", part, 1.0);
-    state.equilibrated = part >= 1.0 ? 1 : 0;
-    interrupted = monitor.stop_requested();
-    count_time();
-    if (interrupted) save();
-  }
-  TrajectoryRecord record(layout, options.window);
-  while (!interrupted && !state.source.failed() && state.trajectories < options.trajectories) {
-    // A trajectory is not kept half done: an interrupted one is made again.
-    save();
-    record.clear();
-    state.source.begin_trajectory();
-    while (!record.full() && !interrupted) {
-      state.source.record(record);
-      if (record.records() % records_per_report != 0) continue;
-      monitor.progress("trajectories",
-                       static_cast<double>(state.trajectories) +
-                           static_cast<double>(record.records()) / static_cast<double>(options.window.records),
-                       static_cast<double>(options.trajectories));
-      interrupted = monitor.stop_requested();
-    }
-    if (interrupted) break;
-    state.diffusion.add_trajectory(record);
-    state.source.end_trajectory();
-    ++state.trajectories;
-    count_time();
-  }
-  if (!interrupted) save();
-  DiffusionRunResult result{
-      .diffusion = state.diffusion, .interrupted = interrupted, .equilibrated = !state.source.failed(), .seconds = state.seconds};
-  state.source.finish(result);
-  return result;
+  DiffusionWork<Source> work(model, layout, start, options, isa);
+  return work.result(run_to_end(work, "diffusion.h5", checkpoint, monitor));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include "dynamics/end_points.hpp"
 #include "dynamics/hard_end_points.hpp"
 #include "observables/diffusion.hpp"
-#include "run/checkpoint.hpp"
+#include "run/run_loop.hpp"
 
 namespace lanescape {
 

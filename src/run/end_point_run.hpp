@@ -14,18 +14,10 @@
 #include "dynamics/hard_end_points.hpp"
 #include "dynamics/hard_sphere_start.hpp"
 #include "observables/radial_distribution.hpp"
-#include "run/checkpoint.hpp"
+#include "run/configuration_pair.hpp"
+#include "run/run_loop.hpp"
 
 namespace lanescape {
-
-// One pair as its user sees it: both ends unwrapped, in the user's order.
-struct ConfigurationPair {
-  Configuration start, finish;
-  double distance = 0.0;       // [sigma]
-  std::uint64_t steps = 0;     // of molecular dynamics between the two, or collisions; 0 if not known
-  double time = 0.0;           // likewise
-  double radius_factor = 1.0;  // by which radii of a file were scaled, where its rounding made spheres overlap
-};
 
 struct EndPointRunResult {
   bool done = false, interrupted = false;
@@ -43,8 +35,8 @@ struct EndPointRunResult {
 
 // Runs molecular dynamics from `start` to as many end-point pairs as asked for. Bit-identical for a given seed and instruction
 // set, interrupted and resumed or not. Throws Error(bad_input) for impossible options, overlapping particles or hard spheres.
-EndPointRunResult run_end_points(const Model& model, const Configuration& start, const EndPointOptions& options,
-                                 Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor);
+EndPointRunResult run_end_points(const Model& model, const Configuration& start, const EndPointOptions& options, Isa isa,
+                                 const CheckpointOptions& checkpoint, RunMonitor& monitor);
 // The same for hard spheres by event-driven dynamics; `start` has radii and no overlaps.
 EndPointRunResult run_hard_end_points(const HardSphereModel& model, const Configuration& start, const HardEndPointOptions& options,
                                       Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor);

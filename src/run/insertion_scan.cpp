@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
+#include <utility>
 
 #include "configuration/lattice.hpp"
 #include "core/error.hpp"
@@ -13,6 +13,8 @@
 #include "insertion/search.hpp"
 #include "interaction/pair/pair_interaction.hpp"
 #include "interaction/pair/probe_field.hpp"
+#include "observables/statistics.hpp"
+#include "observables/widom.hpp"
 
 namespace lanescape {
 namespace {
@@ -22,19 +24,8 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 // Rows of plain numbers, as they are archived.
-struct ScanState {
+struct ScanRows {
   std::vector<double> states, costs, holes, errors;
-  std::uint64_t done = 0;  // states
-  double seconds = 0.0;
-
-  void exchange(Archive& archive) {
-    archive.field("states", states);
-    archive.field("costs", costs);
-    archive.field("holes", holes);
-    archive.field("errors", errors);
-    archive.field("done", done);
-    archive.field("run_seconds", seconds);
-  }
 };
 
 // One way to look for places, over all configurations of a state.
@@ -68,19 +59,6 @@ struct Combination {
   }
 };
 
-// Mean and standard error over configurations.
-struct Samples {
-  std::vector<double> values;
-  double mean() const { return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()); }
-  double error() const {
-    if (values.size() < 2) return 0.0;
-    double squares = 0.0;
-    for (const double v : values) squares += (v - mean()) * (v - mean());
-    const double n = static_cast<double>(values.size());
-    return std::sqrt(squares / (n * (n - 1.0)));
-  }
-};
-
 class StateScan {
  public:
   StateScan(const PairModel& model, const InsertionScanOptions& options, Isa isa, std::size_t which)
@@ -97,20 +75,22 @@ class StateScan {
   }
 
   // False if it was stopped on the way.
-  bool run(ScanState& out, RunMonitor& monitor) {
+  bool run(ScanRows& out, std::uint64_t states_done, RunMonitor& monitor) {
     MovingFluid fluid(*model_, fluid_on_lattice(*model_, options_->particles, at_.density, at_.temperature, options_->seed),
                       options_->time_step, isa_, options_->threads);
     equilibrate(fluid, at_.temperature, options_->equilibration_steps);
     for (std::uint64_t c = 0; c < options_->configurations; ++c) {
       equilibrate(fluid, at_.temperature, options_->between_steps);
       look_at(fluid, out);
-      monitor.progress("scan",
-                       static_cast<double>(out.done) + static_cast<double>(c + 1) / static_cast<double>(options_->configurations),
-                       static_cast<double>(options_->states.size()));
+      monitor.progress(
+          "scan", static_cast<double>(states_done) + static_cast<double>(c + 1) / static_cast<double>(options_->configurations),
+          static_cast<double>(options_->states.size()));
       if (monitor.stop_requested()) return false;
     }
-    out.states.insert(out.states.end(), {at_.density, at_.temperature, temperature_.mean(), excess_.mean(), pressure_.mean(),
-                                         widom_.values.empty() ? 0.0 : widom_.mean(), widom_.error()});
+    const Estimate widom = estimate_mean(widom_);
+    out.states.insert(out.states.end(),
+                      {at_.density, at_.temperature, estimate_mean(temperature_).value, estimate_mean(excess_).value,
+                       estimate_mean(pressure_).value, widom.value, widom.error.value_or(0.0)});
     for (const Combination& combination : combinations_)
       combination.add_to(out.costs, at_, static_cast<double>(options_->configurations));
     for (std::size_t k = 0; k < holes_.size(); ++k) add_holes(out, k);
@@ -118,19 +98,21 @@ class StateScan {
   }
 
  private:
-  void look_at(MovingFluid& fluid, ScanState& out) {
+  void look_at(MovingFluid& fluid, ScanRows& out) {
     const MovingFluid::Potential potential = fluid.potential();
     const Configuration configuration = fluid.state().configuration;
     const double excess = potential.energy / static_cast<double>(configuration.size());
-    temperature_.values.push_back(fluid.temperature());
-    pressure_.values.push_back(potential.pressure);
-    excess_.values.push_back(excess);
+    temperature_.push_back(fluid.temperature());
+    pressure_.push_back(potential.pressure);
+    excess_.push_back(excess);
     const ProbeField field(*model_, configuration, options_->species, kernel_table(isa_));
-    if (options_->widom_probes > 0) widom_.values.push_back(widom(field));
+    if (options_->widom_probes > 0)
+      widom_.push_back(widom_chemical_potential(field, at_.temperature, options_->widom_probes,
+                                                CounterRandom(options_->seed, RandomStream::sites), widom_.size() + 1));
     for (Combination& combination : combinations_) {
       InsertionOptions& with = combination.options;
       if (options_->target == ScanTarget::mean_excess_energy) with.target = excess;
-      if (options_->target == ScanTarget::chemical_potential) with.target = widom_.values.back();
+      if (options_->target == ScanTarget::chemical_potential) with.target = widom_.back();
       combination.target_sum += with.target;
       const auto start = Clock::now();
       for (const Insertion& place : find_places(field, with, options_->count, combination.history, options_->threads))
@@ -139,25 +121,6 @@ class StateScan {
     }
     look_at_holes(field, excess);
     trace_errors(field, excess, out);
-  }
-
-  // -T ln <exp(-U/T)> over random places: Widom, J. Chem. Phys. 39, 2808 (1963), doi 10.1063/1.1734110.
-  double widom(const ProbeField& field) {
-    constexpr std::size_t at_once = 4096;
-    const CounterRandom random(options_->seed, RandomStream::sites);
-    std::vector<double> positions, energies;
-    double sum = 0.0;
-    for (std::uint64_t done = 0; done < options_->widom_probes; done += energies.size()) {
-      energies.resize(std::min<std::uint64_t>(at_once, options_->widom_probes - done));
-      positions.clear();
-      for (std::size_t k = 0; k < energies.size(); ++k) {
-        const auto place = random.uniform_point(widom_.values.size() + 1, static_cast<std::uint32_t>(done + k));
-        for (std::size_t axis = 0; axis < 3; ++axis) positions.push_back(place[axis] * field.box().length[axis]);
-      }
-      field.energies(positions, energies);
-      for (const double energy : energies) sum += std::exp(-energy / at_.temperature);
-    }
-    return -at_.temperature * std::log(sum / static_cast<double>(options_->widom_probes));
   }
 
   // Around places of the mean excess energy, as [U] does.
@@ -170,24 +133,21 @@ class StateScan {
         if (const auto hole = measure_hole(field, place.position, options_->iso_energies[k])) holes_[k].push_back(*hole);
   }
 
-  void add_holes(ScanState& out, std::size_t which) const {
+  void add_holes(ScanRows& out, std::size_t which) const {
     const std::vector<Hole>& holes = holes_[which];
     // A few holes are long tubes, whose fits would rule any mean.
-    const auto median = [&](double Hole::* member) {
+    const auto median_of = [&](double Hole::* member) {
       std::vector<double> values;
       for (const Hole& hole : holes) values.push_back(hole.*member);
-      if (values.empty()) return 0.0;
-      const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-      std::nth_element(values.begin(), middle, values.end());
-      return *middle;
+      return median(std::move(values));
     };
     out.holes.insert(out.holes.end(),
                      {at_.density, at_.temperature, options_->iso_energies[which], static_cast<double>(holes.size()),
-                      median(&Hole::mean_radius), median(&Hole::semi_minor), median(&Hole::semi_major), median(&Hole::anisotropy),
-                      median(&Hole::eccentricity), median(&Hole::open_directions)});
+                      median_of(&Hole::mean_radius), median_of(&Hole::semi_minor), median_of(&Hole::semi_major),
+                      median_of(&Hole::anisotropy), median_of(&Hole::eccentricity), median_of(&Hole::open_directions)});
   }
 
-  void trace_errors(const ProbeField& field, double excess, ScanState& out) {
+  void trace_errors(const ProbeField& field, double excess, ScanRows& out) {
     InsertionOptions with = options_->insertion;
     with.target = excess;
     for (std::uint64_t k = 0; k < options_->traced_searches; ++k) {
@@ -211,28 +171,62 @@ class StateScan {
   Isa isa_;
   InsertionScanOptions::State at_;
   std::vector<Combination> combinations_;
-  Samples temperature_, pressure_, excess_, widom_;
+  std::vector<double> temperature_, pressure_, excess_, widom_;  // per configuration
   InsertionHistory hole_history_;
   std::vector<std::vector<Hole>> holes_;  // by iso-energy
   std::uint64_t traced_ = 0;
 };
 
-InsertionScanResult result_of(const ScanState& state) {
+InsertionScanResult result_of(const ScanRows& rows) {
   InsertionScanResult result;
   const auto for_each_row = [](const std::vector<double>& numbers, std::size_t width, auto action) {
     for (std::size_t k = 0; k + width <= numbers.size(); k += width) action(numbers.data() + k);
   };
-  for_each_row(state.states, 7, [&](const double* r) { result.states.push_back({r[0], r[1], r[2], r[3], r[4], r[5], r[6]}); });
-  for_each_row(state.costs, 16, [&](const double* r) {
+  for_each_row(rows.states, 7, [&](const double* r) { result.states.push_back({r[0], r[1], r[2], r[3], r[4], r[5], r[6]}); });
+  for_each_row(rows.costs, 16, [&](const double* r) {
     result.costs.push_back({r[0], r[1], static_cast<InsertionMethod>(static_cast<int>(r[2])), r[3], r[4], r[5], r[6], r[7], r[8],
                             r[9], r[10], r[11], r[12], r[13], r[14], r[15]});
   });
-  for_each_row(state.holes, 10,
+  for_each_row(rows.holes, 10,
                [&](const double* r) { result.holes.push_back({r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], r[9]}); });
-  for_each_row(state.errors, 3, [&](const double* r) { result.errors.push_back({r[0], r[1], r[2]}); });
-  result.seconds = state.seconds;
+  for_each_row(rows.errors, 3, [&](const double* r) { result.errors.push_back({r[0], r[1], r[2]}); });
   return result;
 }
+
+// A scan, a state point at a time. A state point is not kept half done: an interrupted one is repeated.
+class Scan final : public ResumableWork {
+ public:
+  Scan(const PairModel& model, const InsertionScanOptions& options, Isa isa) : model_(&model), options_(&options), isa_(isa) {}
+
+  bool finished() const override { return done_ == options_->states.size(); }
+  void advance(RunMonitor& monitor) override {
+    ScanRows next = rows_;
+    if (!StateScan(*model_, *options_, isa_, done_).run(next, done_, monitor)) return;
+    rows_ = std::move(next);
+    ++done_;
+  }
+  void exchange(Archive& archive) override {
+    archive.field("states", rows_.states);
+    archive.field("costs", rows_.costs);
+    archive.field("holes", rows_.holes);
+    archive.field("errors", rows_.errors);
+    archive.field("done", done_);
+  }
+
+  InsertionScanResult result(bool interrupted) const {
+    InsertionScanResult result = result_of(rows_);
+    result.interrupted = interrupted;
+    result.seconds = clock().seconds();
+    return result;
+  }
+
+ private:
+  const PairModel* model_;
+  const InsertionScanOptions* options_;
+  Isa isa_;
+  ScanRows rows_;
+  std::uint64_t done_ = 0;
+};
 
 }  // namespace
 
@@ -267,24 +261,8 @@ void InsertionScanOptions::check(const PairModel& model) const {
 InsertionScanResult run_insertion_scan(const PairModel& model, const InsertionScanOptions& options, Isa isa,
                                        const CheckpointOptions& checkpoint, RunMonitor& monitor) {
   options.check(model);
-  const auto file = checkpoint.folder / "scan.h5";
-  ScanState state;
-  if (checkpoint.enabled() && checkpoint.resume) load_checkpoint(file, state);
-  bool interrupted = false;
-  while (!interrupted && state.done < options.states.size()) {
-    const auto start = Clock::now();
-    ScanState next = state;
-    interrupted = !StateScan(model, options, isa, state.done).run(next, monitor);
-    // A state is not kept half done: an interrupted one is made again.
-    if (interrupted) break;
-    state = std::move(next);
-    ++state.done;
-    state.seconds += seconds_since(start);
-    if (checkpoint.enabled()) save_checkpoint(file, state);
-  }
-  InsertionScanResult result = result_of(state);
-  result.interrupted = interrupted;
-  return result;
+  Scan work(model, options, isa);
+  return work.result(run_to_end(work, "scan.h5", checkpoint, monitor));
 }
 
 }  // namespace lanescape

@@ -7,8 +7,8 @@
 #include "core/run_monitor.hpp"
 #include "dispatch/isa.hpp"
 #include "insertion/insertion.hpp"
-#include "run/checkpoint.hpp"
 #include "run/moving_fluid.hpp"
+#include "run/run_loop.hpp"
 
 namespace lanescape {
 

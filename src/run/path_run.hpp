@@ -1,38 +1,28 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "configuration/configuration.hpp"
 #include "configuration/model.hpp"
 #include "core/decimated_trace.hpp"
 #include "core/run_monitor.hpp"
+#include "core/step_histogram.hpp"
 #include "dispatch/isa.hpp"
 #include "interaction/pair/pair_interaction.hpp"
 #include "path/finder.hpp"
-#include "run/checkpoint.hpp"
-#include "run/end_point_run.hpp"
+#include "run/configuration_pair.hpp"
+#include "run/path_method.hpp"
+#include "run/run_loop.hpp"
 #include "stepper/avoidance.hpp"
 
 namespace lanescape {
 
-// Contour and escape for soft particles, avoidance and away for hard spheres.
-enum class PathMethod { contour, escape, avoidance, away };
-// Throws Error(bad_input) naming the allowed words.
-PathMethod parse_path_method(std::string_view word);
-const char* to_string(PathMethod method);
-// Whether it is for hard spheres.
-bool is_hard(PathMethod method);
-// Throws Error(bad_input) where the method is not for this kind of model.
-void check_method(PathMethod method, const Model& model);
-
 struct PathRunOptions {
-  PathMethod method = PathMethod::contour;
-  std::optional<double> direct_step;  // delta_di, in 3N space; else 0.001 soft, 0.01 hard; none for away [sigma]
+  const PathMethod* method = &default_path_method(false);
+  std::optional<double> direct_step;  // delta_di, in 3N space; else the method's own [sigma]
   double avoidance_step = 1e-4;       // delta_ca, of each particle that moves [sigma]
   kernels::ContactPotential fictitious = kernels::ContactPotential::harmonic;
   std::optional<double> landscape_energy;  // E_L; else the higher of the two ends [epsilon]
@@ -40,19 +30,11 @@ struct PathRunOptions {
   FinderOptions finder;
   int threads = 1;  // paths searched at once, or of one path the evaluations; no effect on any result
   Precision precision = Precision::double_precision;  // of soft particles
-  double step_length() const;
+
+  // The length of direct steps; 0 where the method's steps have none.
+  double step_length() const { return method->direct_step ? direct_step.value_or(*method->direct_step) : 0.0; }
   // Throws Error(bad_input) naming the option that is out of range.
   void check() const;
-};
-
-// How often a quantity of a path's steps took a value: entry k is for `first` + k `width`, its upper edge where values are not
-// whole numbers.
-struct StepHistogram {
-  std::string quantity;
-  double first, width;
-  std::vector<std::uint64_t> counts;
-
-  double mean() const;
 };
 
 struct PathResult {
@@ -77,13 +59,8 @@ struct PathResult {
   double ratio_squared() const { return length > 0.0 ? distance * distance / (length * length) : 0.0; }
 };
 
-// Throws Error(bad_input) where the ends of a pair differ in box, composition or radii, coincide or overlap; the message starts
-// with `where`.
-void check_end_points(const ConfigurationPair& pair, const Model& model, const std::string& where);
-
-// One path for each pair, paths in parallel. The results do not depend on the number of threads, nor on interruption and
-// resumption. Throws Error(bad_input) for a pair that check_end_points() refuses or with an end above a given landscape energy, and
-// for a method that is not for this kind of model.
+// One path for each pair, paths in parallel. The results depend neither on the number of threads nor on interruption and
+// resumption. Throws Error(bad_input) for a pair that prepare_pair() refuses, and for a method that is not for this kind of model.
 std::vector<PathResult> run_paths(const Model& model, const std::vector<ConfigurationPair>& pairs, const PathRunOptions& options,
                                   Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor);
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/error.hpp"
 #include "dynamics/langevin.hpp"
@@ -13,7 +12,7 @@
 namespace lanescape {
 namespace {
 
-// So many that neighbours along no axis are nearer than they have to be: a lattice that is squeezed flies apart.
+// The number of cells that keeps the nearest neighbours as far apart as possible: a squeezed lattice flies apart.
 std::size_t cells_across(const SlabOptions& options) {
   const auto nearest = [&](double cells) {
     const double step = options.width / cells;
@@ -23,7 +22,7 @@ std::size_t cells_across(const SlabOptions& options) {
   return static_cast<std::size_t>(nearest(few) < nearest(few + 1.0) ? few + 1.0 : few);
 }
 
-// A simple lattice in the middle of the box, as long as it has to be; species in turn.
+// A simple cubic lattice in the middle of the box, as long as needed; species alternate.
 Configuration lattice_slab(const SlabOptions& options, std::size_t species) {
   Configuration slab{{{options.width, options.width, options.length}}, {}, {}};
   const std::size_t across = cells_across(options);
@@ -43,47 +42,63 @@ Configuration lattice_slab(const SlabOptions& options, std::size_t species) {
   return slab;
 }
 
-// Where the slab is: the phase of the density's longest wave, which no boundary of the box disturbs.
-double centre_of(const std::vector<double>& positions, double length) {
-  double sine = 0.0, cosine = 0.0;
-  for (std::size_t k = 2; k < positions.size(); k += 3) {
-    sine += std::sin(2.0 * std::numbers::pi * positions[k] / length);
-    cosine += std::cos(2.0 * std::numbers::pi * positions[k] / length);
-  }
-  return std::atan2(sine, cosine) * length / (2.0 * std::numbers::pi);
-}
+// Langevin dynamics of a slab, with samples taken after its equilibration.
+class SlabWork final : public ResumableWork {
+ public:
+  SlabWork(const StateMixtureModel& model, const Configuration& start, const SlabOptions& options, Isa isa)
+      : start_(start),
+        options_(options),
+        layout_(ParticleLayout::in_space_order(start, model.species.size())),
+        landscape_(model, start.box, layout_, isa, with_threads(options.threads)),
+        dynamics_(landscape_, model, layout_, layout_.to_slots(start.positions),
+                  {options.temperature, options.friction, options.time_step, options.seed}),
+        sampler_(start.box, options.bins, model.most_states()) {}
 
-void add_sample(SlabProfiles& profiles, const std::vector<double>& positions, const Box& box, const ParticleLayout& layout,
-                const StateMixture& interaction) {
-  const double length = box.length[2], centre = centre_of(positions, length);
-  const auto bins = static_cast<double>(profiles.z.size());
-  for (std::size_t i = 0; i < layout.size(); ++i) {
-    const double z = box.wrapped(2, positions[3 * i + 2] - centre + 0.5 * length);
-    const std::size_t bin = std::min(profiles.z.size() - 1, static_cast<std::size_t>(z / length * bins)), slot = layout.slot_of(i);
-    profiles.sites[bin] += 1.0;
-    profiles.local_density[bin] += interaction.order_parameters()[slot];
-    for (std::size_t a = 0; a < profiles.probability.size(); ++a) profiles.probability[a][bin] += interaction.states().of(slot)[a];
+  bool finished() const override { return dynamics_.steps() == total(); }
+  void advance(RunMonitor& monitor) override {
+    do step();
+    while (!finished() && dynamics_.steps() % steps_per_chunk != 0);
+    monitor.progress("slab", static_cast<double>(dynamics_.steps()), static_cast<double>(total()));
   }
-  ++profiles.samples;
-}
-
-void take_means(SlabProfiles& profiles, const Box& box) {
-  const double volume = box.volume() / static_cast<double>(profiles.z.size());
-  for (std::size_t bin = 0; bin < profiles.z.size(); ++bin) {
-    if (profiles.samples > 0) profiles.density[bin] = profiles.sites[bin] / (volume * static_cast<double>(profiles.samples));
-    if (profiles.sites[bin] == 0.0) continue;
-    profiles.local_density[bin] /= profiles.sites[bin];
-    for (auto& probability : profiles.probability) probability[bin] /= profiles.sites[bin];
+  bool save_due() const override { return dynamics_.steps() % (steps_per_chunk * chunks_per_checkpoint) == 0; }
+  void exchange(Archive& archive) override {
+    dynamics_.exchange(archive);
+    sampler_.exchange(archive);
+    archive.field("temperature_sum", temperature_);
   }
-}
 
-SlabProfiles empty_profiles(const SlabOptions& options, std::size_t states) {
-  const std::vector<double> zeros(options.bins, 0.0);
-  SlabProfiles profiles{zeros, zeros, zeros, std::vector<std::vector<double>>(states, zeros), zeros};
-  for (std::size_t bin = 0; bin < options.bins; ++bin)
-    profiles.z[bin] = ((static_cast<double>(bin) + 0.5) / static_cast<double>(options.bins) - 0.5) * options.length;
-  return profiles;
-}
+  SlabRunResult result(bool interrupted) const {
+    SlabRunResult result{.profiles = sampler_.profiles(), .interrupted = interrupted, .seconds = clock().seconds()};
+    if (sampler_.samples() > 0) result.temperature = temperature_ / static_cast<double>(sampler_.samples());
+    result.last = {start_.box, start_.species, layout_.to_user(dynamics_.position())};
+    result.last.wrap();
+    return result;
+  }
+
+ private:
+  static constexpr std::uint64_t steps_per_chunk = 100, chunks_per_checkpoint = 20;
+
+  static StateMixture::Options with_threads(int threads) {
+    StateMixture::Options options;
+    options.threads = threads;
+    return options;
+  }
+  std::uint64_t total() const { return options_.equilibration_steps + options_.sampling_steps; }
+  void step() {
+    dynamics_.step();
+    if (dynamics_.steps() <= options_.equilibration_steps || dynamics_.steps() % options_.interval != 0) return;
+    sampler_.add(layout_.to_user(dynamics_.position()), layout_, landscape_.interaction());
+    temperature_ += dynamics_.temperature();
+  }
+
+  const Configuration& start_;
+  const SlabOptions& options_;
+  ParticleLayout layout_;
+  StateMixtureLandscape landscape_;
+  Langevin dynamics_;
+  SlabSampler sampler_;
+  double temperature_ = 0.0;  // sum over samples
+};
 
 }  // namespace
 
@@ -102,34 +117,19 @@ void SlabOptions::check() const {
   LangevinOptions{temperature, friction, time_step, seed}.check();
 }
 
-SlabProfiles run_slab(const StateMixtureModel& model, const SlabOptions& options, Isa isa, RunMonitor& monitor) {
-  options.check();
-  const Configuration start = lattice_slab(options, model.species.size());
+void SlabOptions::check_against(const StateMixtureModel& model) const {
+  check();
+  const Configuration start = lattice_slab(*this, model.species.size());
   check_cutoff(model, start.box);
   check_separations(start, model);
-  const ParticleLayout layout = ParticleLayout::in_space_order(start, model.species.size());
-  StateMixture::Options with;
-  with.threads = options.threads;
-  StateMixtureLandscape landscape(model, start.box, layout, isa, with);
-  Langevin dynamics(landscape, model, layout, layout.to_slots(start.positions),
-                    {options.temperature, options.friction, options.time_step, options.seed});
-  SlabProfiles profiles = empty_profiles(options, model.most_states());
-  const std::uint64_t total = options.equilibration_steps + options.sampling_steps;
-  for (std::uint64_t step = 1; step <= total && !profiles.interrupted; ++step) {
-    dynamics.step();
-    if (step > options.equilibration_steps && step % options.interval == 0) {
-      add_sample(profiles, layout.to_user(dynamics.position()), start.box, layout, landscape.interaction());
-      profiles.temperature += dynamics.temperature();
-    }
-    if (step % 100 != 0) continue;
-    monitor.progress("slab", static_cast<double>(step), static_cast<double>(total));
-    profiles.interrupted = monitor.stop_requested();
-  }
-  if (profiles.samples > 0) profiles.temperature /= static_cast<double>(profiles.samples);
-  take_means(profiles, start.box);
-  profiles.last = {start.box, start.species, layout.to_user(dynamics.position())};
-  profiles.last.wrap();
-  return profiles;
+}
+
+SlabRunResult run_slab(const StateMixtureModel& model, const SlabOptions& options, Isa isa, const CheckpointOptions& checkpoint,
+                       RunMonitor& monitor) {
+  options.check_against(model);
+  const Configuration start = lattice_slab(options, model.species.size());
+  SlabWork work(model, start, options, isa);
+  return work.result(run_to_end(work, "slab.h5", checkpoint, monitor));
 }
 
 }  // namespace lanescape

@@ -7,6 +7,8 @@
 #include "configuration/state_mixture_model.hpp"
 #include "core/run_monitor.hpp"
 #include "dispatch/isa.hpp"
+#include "observables/slab_profiles.hpp"
+#include "run/run_loop.hpp"
 
 namespace lanescape {
 
@@ -23,21 +25,21 @@ struct SlabOptions {
 
   // Throws Error(bad_input) naming the option that is out of range.
   void check() const;
+  // check(), and whether the slab fits into its box and the model's cutoff.
+  void check_against(const StateMixtureModel& model) const;
 };
 
-// Means over samples, bin by bin along z, z = 0 where the slab's centre is.
-struct SlabProfiles {
-  std::vector<double> z;                         // middle of each bin [sigma]
-  std::vector<double> density;                   // [sigma^-3]
-  std::vector<double> local_density;             // of the sites in the bin; 0 where there was none
-  std::vector<std::vector<double>> probability;  // of each state, likewise
-  std::vector<double> sites;                     // found in the bin, all samples together
-  double temperature = 0.0;
-  std::uint64_t samples = 0;
+struct SlabRunResult {
+  SlabProfiles profiles;
+  double temperature = 0.0;  // kinetic, mean over samples
   bool interrupted = false;
+  double seconds = 0.0;
   Configuration last{};  // wrapped
 };
 
-SlabProfiles run_slab(const StateMixtureModel& model, const SlabOptions& options, Isa isa, RunMonitor& monitor);
+// Bit-identical for a given seed and instruction set, interrupted and resumed or not. Throws Error(bad_input) where check_against()
+// does.
+SlabRunResult run_slab(const StateMixtureModel& model, const SlabOptions& options, Isa isa, const CheckpointOptions& checkpoint,
+                       RunMonitor& monitor);
 
 }  // namespace lanescape

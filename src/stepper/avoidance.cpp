@@ -4,28 +4,22 @@
 
 #include <algorithm>
 
-#include "core/error.hpp"
+#include "core/enum_words.hpp"
 
 namespace lanescape {
 
-kernels::ContactPotential parse_contact_potential(std::string_view word) {
-  if (word == "harmonic") return kernels::ContactPotential::harmonic;
-  if (word == "linear") return kernels::ContactPotential::linear;
-  if (word == "cubic") return kernels::ContactPotential::cubic;
-  throw_bad_input(fmt::format("unknown fictitious potential '{}': allowed are harmonic, linear, cubic", word));
-}
+namespace {
 
-const char* to_string(kernels::ContactPotential potential) {
-  switch (potential) {
-    case kernels::ContactPotential::harmonic:
-      return "harmonic";
-    case kernels::ContactPotential::linear:
-      return "linear";
-    case kernels::ContactPotential::cubic:
-      return "cubic";
-  }
-  return "";
+using kernels::ContactPotential;
+constexpr EnumWord<ContactPotential> contact_potentials[] = {
+    {ContactPotential::harmonic, "harmonic"}, {ContactPotential::linear, "linear"}, {ContactPotential::cubic, "cubic"}};
+
+}  // namespace
+
+ContactPotential parse_contact_potential(std::string_view word) {
+  return parse_word(contact_potentials, "fictitious potential", word);
 }
+const char* to_string(ContactPotential potential) { return word_of(contact_potentials, potential); }
 
 AvoidanceStepper::AvoidanceStepper(HardLandscape& landscape, const Options& options)
     : landscape_(&landscape),
@@ -49,7 +43,7 @@ std::optional<StepKind> AvoidanceStepper::step(const PathPoint& at, AlignedArray
   std::fill(sum_.begin(), sum_.end(), 0.0);
   for (std::uint64_t trial = 0; trial < options_.max_trials; ++trial) {
     landscape_->add_contact_forces(options_.potential, force_);
-    moved_ = algebra.avoidance_trial(next, at.position, sum_, force_, options_.avoidance_step);
+    moved_ = landscape_->avoidance_trial(next, at.position, sum_, force_, options_.avoidance_step);
     if (moved_ == 0) {
       failure_ = "the fictitious forces of all trials cancel";
       return std::nullopt;

@@ -28,7 +28,6 @@ class AvoidanceStepper {
     kernels::ContactPotential potential = kernels::ContactPotential::harmonic;
     std::uint64_t max_trials = 10'000;  // of one avoidance step
   };
-  static constexpr const char* detour_name = "avoidance";
   // Overlaps are counted in one avoidance step of so many: neighbouring ones hardly differ, and counting takes as long as half
   // a step.
   static constexpr std::uint64_t statistics_interval = 8;
@@ -46,6 +45,7 @@ class AvoidanceStepper {
   // How many avoidance steps took 1, 2, 3, ... trials after the failed direct one; the last entry counts all beyond.
   const std::vector<std::uint64_t>& corrections() const { return corrections_; }
   const AvoidanceStatistics& statistics() const { return statistics_; }
+  std::vector<StepHistogram> histograms() const { return statistics_.histograms(); }
 
   void exchange(Archive& archive, const AlignedArray& position);
 

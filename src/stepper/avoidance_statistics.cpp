@@ -83,6 +83,15 @@ void AvoidanceStatistics::end_step(std::size_t moved) {
     if (size_[static_cast<std::size_t>(slot)] > 0) ++sizes[static_cast<std::size_t>(size_[static_cast<std::size_t>(slot)])];
 }
 
+std::vector<StepHistogram> AvoidanceStatistics::histograms() const {
+  return {{"overlapping_partners", 0.0, 1.0, partners_},
+          {"moved_particles", 0.0, 1.0, moved_},
+          {"groups", 0.0, 1.0, group_numbers_},
+          {"group_size_few_groups", 0.0, 1.0, group_sizes_[few_groups]},
+          {"group_size_some_groups", 0.0, 1.0, group_sizes_[some_groups]},
+          {"group_size_many_groups", 0.0, 1.0, group_sizes_[many_groups]}};
+}
+
 void AvoidanceStatistics::exchange(Archive& archive) {
   archive.field("partners", partners_);
   archive.field("moved", moved_);

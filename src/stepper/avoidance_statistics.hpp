@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/archive.hpp"
+#include "core/step_histogram.hpp"
 #include "interaction/sphere/hard_sphere_list.hpp"
 
 namespace lanescape {
@@ -24,6 +25,8 @@ class AvoidanceStatistics {
   void add_trial(const ContactPairs& overlaps);
   void end_step(std::size_t moved);
 
+  // All of them, named.
+  std::vector<StepHistogram> histograms() const;
   const std::vector<std::uint64_t>& partners() const { return partners_; }  // v
   const std::vector<std::uint64_t>& moved() const { return moved_; }        // c
   const std::vector<std::uint64_t>& group_sizes(Range range) const { return group_sizes_[range]; }

@@ -35,7 +35,6 @@ class AwayStepper {
     std::uint64_t max_depth = 2000;     // spheres pushed one by the other
     std::uint64_t max_moves = 100'000;  // of single spheres in one away step
   };
-  static constexpr const char* detour_name = "away";
   static constexpr double slack = 1e-10;  // [sigma]
 
   // `radii` per particle in the user's order [sigma], `goal` R_f in the layout's. Throws Error(bad_input) where the box is not

@@ -15,22 +15,14 @@ ContourStepper::ContourStepper(SoftLandscape& landscape, double landscape_energy
       trial_gradient_(landscape.dimension(), 0.0),
       along_(landscape.dimension(), 0.0) {}
 
-std::optional<StepKind> ContourStepper::step(const PathPoint& at, AlignedArray& next) {
+// The direction f = d - (d.n) n along the contour, kept as |R_f - R| f in along_.
+std::optional<ContourStepper::Contour> ContourStepper::find_contour(const PathPoint& at) {
   const VectorAlgebra& algebra = landscape_->algebra();
-  direct_trial(algebra, at, options_.direct_step, next);
-  ++evaluations_;
-  const double direct_energy = landscape_->energy(next);
-  if (direct_energy <= landscape_energy_) {
-    energy_ = direct_energy;
-    gradient_known_ = false;
-    return StepKind::direct;
-  }
   if (!gradient_known_) {
     ++evaluations_;
     landscape_->energy_and_gradient(at.position, gradient_);
     gradient_known_ = true;
   }
-  // f = d - (d.n) n, kept as |R_f - R| f.
   const double slope = algebra.norm(gradient_);
   if (!(slope > 0.0)) {
     failure_ = "the direct step is forbidden and the potential is flat";
@@ -42,9 +34,24 @@ std::optional<StepKind> ContourStepper::step(const PathPoint& at, AlignedArray& 
     failure_ = "the direction to the goal is parallel to the gradient";
     return std::nullopt;
   }
+  return Contour{slope, along_length};
+}
+
+std::optional<StepKind> ContourStepper::step(const PathPoint& at, AlignedArray& next) {
+  const VectorAlgebra& algebra = landscape_->algebra();
+  direct_trial(algebra, at, options_.direct_step, next);
+  ++evaluations_;
+  const double direct_energy = landscape_->energy(next);
+  if (direct_energy <= landscape_energy_) {
+    energy_ = direct_energy;
+    gradient_known_ = false;
+    return StepKind::direct;
+  }
+  const std::optional<Contour> contour = find_contour(at);
+  if (!contour) return std::nullopt;
   for (std::uint64_t k = 0; k <= options_.max_corrections; ++k) {
-    const double back = -static_cast<double>(k) * options_.correction / slope;
-    algebra.combine(next, at.position, options_.direct_step / along_length, along_, back, gradient_);
+    const double back = -static_cast<double>(k) * options_.correction / contour->slope;
+    algebra.combine(next, at.position, options_.direct_step / contour->along_length, along_, back, gradient_);
     ++evaluations_;
     // With its gradient, since this trial is nearly always accepted and the next detour starts from here.
     const double energy = landscape_->energy_and_gradient(next, trial_gradient_);

@@ -19,7 +19,6 @@ class ContourStepper {
     double correction = 1e-5;   // of each correction against the gradient [sigma]
     std::uint64_t max_corrections = 100'000;
   };
-  static constexpr const char* detour_name = "contour";
 
   ContourStepper(SoftLandscape& landscape, double landscape_energy, const Options& options);
 
@@ -37,6 +36,11 @@ class ContourStepper {
   void exchange(Archive& archive, const AlignedArray& position);
 
  private:
+  struct Contour {
+    double slope, along_length;  // |grad V|, |along_|
+  };
+  std::optional<Contour> find_contour(const PathPoint& at);
+
   SoftLandscape* landscape_;
   double landscape_energy_;
   Options options_;

@@ -22,7 +22,6 @@ class EscapeStepper {
     double tolerance = 1e-4;    // dV [epsilon]
     std::uint64_t max_iterations = 10'000;
   };
-  static constexpr const char* detour_name = "escape";
 
   EscapeStepper(SoftLandscape& landscape, double landscape_energy, const Options& options);
 

@@ -33,6 +33,11 @@ class UnusedOptions(ProgramTest):
         self.all_refused(run, ("--traverse-step=0.5",), "without method descent")
         self.all_refused(run, ("--clear-energy=50",), "without method screened")
 
+    def test_of_a_composition_beside_a_file(self):
+        pair = self.make_pairs("ends")[0]
+        for run in (("insert", FLUID), ("energy", FLUID), ("endpoints", "--start", FLUID), ("path", "--pair", pair)):
+            self.all_refused((*run, *LENNARD_JONES), ("--composition=1",), "with a file of particles")
+
     def test_of_scans_and_growth(self):
         self.refused_cleanly(*SCAN[:2], FLUID, *SCAN[2:4], says=("FILE is not allowed with --scan",))
         self.all_refused(("insert", "--scan", *LENNARD_JONES), ("--remove=1", "--removal=random", "--temperature=1", "--rate=1", "--rows=2",

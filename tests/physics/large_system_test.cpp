@@ -115,7 +115,7 @@ TEST(LargeSystems, DynamicsResumedFromAnArchiveGoesOnWithTheSameBits) {
   }
 }
 
-// The errors that docs/ARCHITECTURE.md states.
+// The errors that src/interaction/README.md states.
 TEST(LargeSystems, InMixedPrecisionALiquidHasNearlyItsEnergyAndForces) {
   const PairModel model = kob_andersen();
   const Configuration start = fcc_start(model, 4000, 1.2, 1);

@@ -23,9 +23,10 @@ SlabOptions small_slab() {
 
 TEST(Slab, LiquidIsInTheDenseStateAndVapourInTheOther) {
   SilentMonitor monitor;
-  const SlabProfiles profiles = run_slab(liquid_vapour(), small_slab(), choose_isa("auto"), monitor);
+  const SlabRunResult run = run_slab(liquid_vapour(), small_slab(), choose_isa("auto"), {}, monitor);
+  const SlabProfiles& profiles = run.profiles;
   EXPECT_EQ(profiles.samples, 100U);
-  EXPECT_NEAR(profiles.temperature, 0.8, 0.04);
+  EXPECT_NEAR(run.temperature, 0.8, 0.04);
   double sites = 0.0, vapour_sites = 0.0, vapour_density = 0.0;
   for (std::size_t bin = 0; bin < 24; ++bin) {
     sites += profiles.sites[bin];
@@ -54,11 +55,11 @@ TEST(Slab, DoesNotDependOnTheNumberOfThreads) {
   SlabOptions options = small_slab();
   options.equilibration_steps = 100;
   options.sampling_steps = 100;
-  const SlabProfiles one = run_slab(liquid_vapour(), options, choose_isa("auto"), monitor);
+  const SlabRunResult one = run_slab(liquid_vapour(), options, choose_isa("auto"), {}, monitor);
   options.threads = 2;
-  const SlabProfiles two = run_slab(liquid_vapour(), options, choose_isa("auto"), monitor);
+  const SlabRunResult two = run_slab(liquid_vapour(), options, choose_isa("auto"), {}, monitor);
   EXPECT_EQ(one.last.positions, two.last.positions);
-  EXPECT_EQ(one.probability, two.probability);
+  EXPECT_EQ(one.profiles.probability, two.profiles.probability);
 }
 
 TEST(Slab, RefusesWhatDoesNotFit) {
@@ -67,7 +68,7 @@ TEST(Slab, RefusesWhatDoesNotFit) {
   const auto refused = [&](auto change) {
     SlabOptions options = small_slab();
     change(options);
-    return refusal([&] { run_slab(liquid_vapour(), options, choose_isa("auto"), monitor); });
+    return refusal([&] { run_slab(liquid_vapour(), options, choose_isa("auto"), {}, monitor); });
   };
   EXPECT_NE(refused([](SlabOptions& o) { o.particles = 5000; }).find("do not fit"), std::string::npos);
   EXPECT_NE(refused([](SlabOptions& o) { o.particles = 0; }).find("particles"), std::string::npos);

@@ -40,7 +40,7 @@ DiffusionRunOptions run_options(const DiffusionState& state, const Model& model,
   return options;
 }
 
-Json error_of(const BlockEstimate& estimate) { return estimate.error ? Json(*estimate.error) : Json(); }
+Json error_of(const Estimate& estimate) { return estimate.error ? Json(*estimate.error) : Json(); }
 
 const char* to_string(DiffusionRegime regime) {
   switch (regime) {
@@ -61,7 +61,7 @@ Json to_json(const DiffusionRunResult& run, const Mixture& mixture, bool hard) {
   if (d.trajectories() > 0)
     for (std::size_t s = 0; s < d.species(); ++s) {
       Json& species = json["species"][mixture.species[s].name];
-      const auto add = [&](const std::string& name, const BlockEstimate& estimate) {
+      const auto add = [&](const std::string& name, const Estimate& estimate) {
         species[name] = estimate.value;
         species[name + "_error"] = error_of(estimate);
       };
@@ -108,7 +108,8 @@ Json run_diffusion_command(DiffusionState& state, Options& options, int& status)
   state.common.check();
   const Isa isa = state.common.resolve_isa();
   const Model model = state.system.resolve();
-  options.settle(joined({state.system.kinds(model), state.setup.kinds(false), {state.common.folder_kind()}}));
+  options.settle(
+      joined({state.system.kinds(model, state.setup.generates_start()), state.setup.kinds(false), {state.common.folder_kind()}}));
   state.setup.settle(model);
   const Configuration start = state.setup.start(model, state.common, isa);
   state.system.check_precision_in(model, start.box);

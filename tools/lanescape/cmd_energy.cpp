@@ -112,7 +112,7 @@ Json run_energy(EnergyState& state, Options& options) {
   state.common.check();
   const Isa isa = state.common.resolve_isa();
   const Model model = state.system.resolve();
-  options.settle(joined({state.system.kinds(model),
+  options.settle(joined({state.system.kinds(model, false),
                          {kind_if(traits_of(model).has_states, models_with_states, "with states",
                                   fmt::format("with model {}", mixture_of(model).name))}}));
   if (is_hard(model)) refuse_hard_spheres(model);

@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 
-#include <chrono>
+#include <utility>
 
 #include "core/error.hpp"
 #include "insert_runs.hpp"
-#include "insertion/removal.hpp"
-#include "interaction/pair/probe_field.hpp"
 #include "io/extended_xyz.hpp"
 #include "plot.hpp"
+#include "run/insertion_run.hpp"
 
 namespace lanescape::program {
 namespace {
@@ -46,12 +45,6 @@ RunKinds kinds_of(const InsertState& state) {
           kind_if(uses("screened"), screened_starts, "with method screened", "without method screened")};
 }
 
-double mean_excess_energy(const PairModel& model, const Configuration& fluid, Isa isa) {
-  const ParticleLayout layout = ParticleLayout::in_space_order(fluid, model.species.size());
-  return PairInteraction(model, fluid.box, layout, kernel_table(isa)).energy(layout.to_slots(fluid.positions)) /
-         static_cast<double>(fluid.size());
-}
-
 Json to_json(const Insertion& insertion) {
   Json json;
   json["position"] = insertion.position;
@@ -64,97 +57,57 @@ Json to_json(const Insertion& insertion) {
   return json;
 }
 
-struct Exchange {
-  Json insertions = Json::array(), removals = Json::array();
-  std::uint64_t evaluations = 0, failures = 0;
-  bool interrupted = false;
-};
-
-void insert_into(Configuration& fluid, const InsertState& state, const PairModel& model, const InsertionOptions& options, Isa isa,
-                 RunMonitor& monitor, Exchange& exchange) {
-  constexpr std::uint64_t at_once = 64;
-  const int species = state.setup.species_index(model);
-  const double mass = model.species[static_cast<std::size_t>(species)].mass;
-  ProbeField field(model, fluid, species, kernel_table(isa));
-  InsertionHistory history;
-  const CounterRandom random(options.seed, RandomStream::insertion);
-  for (std::uint64_t done = 0; done < state.count && !exchange.interrupted;) {
-    const std::uint64_t wanted = std::min(at_once, state.count - done);
-    for (const Insertion& insertion : insert_particles(field, options, wanted, history, state.common.threads)) {
-      exchange.evaluations += insertion.evaluations;
-      if (!insertion.found) {
-        ++exchange.failures;
-        continue;
-      }
-      Json json = to_json(insertion);
-      if (state.temperature) json["velocity"] = maxwellian_velocity(random, exchange.insertions.size(), *state.temperature, mass);
-      exchange.insertions.push_back(std::move(json));
-      fluid.species.push_back(species);
-      fluid.positions.insert(fluid.positions.end(), insertion.position.begin(), insertion.position.end());
-    }
-    done += wanted;
-    monitor.progress("insertion", static_cast<double>(done), static_cast<double>(state.count));
-    exchange.interrupted = monitor.stop_requested() && done < state.count;
-  }
+InsertionRunOptions run_options(const InsertState& state, const PairModel& model) {
+  InsertionRunOptions options;
+  options.insertion = state.setup.resolve(state.common.seed);
+  const std::optional<double> number = state.setup.number({"mean"});
+  options.mean_target = !number;
+  options.insertion.target = number.value_or(0.0);
+  options.count = state.count;
+  options.removals = state.remove;
+  options.removal = parse_removal_rule(state.removal);
+  options.species = state.setup.species_index(model);
+  options.temperature = state.temperature;
+  options.threads = state.common.threads;
+  return options;
 }
 
-void remove_from(Configuration& fluid, const InsertState& state, const PairModel& model, const InsertionOptions& options, Isa isa,
-                 Exchange& exchange) {
-  const RemovalRule rule = parse_removal_rule(state.removal);
-  const CounterRandom random(options.seed, RandomStream::insertion);
-  for (std::uint64_t k = 0; k < state.remove && !exchange.interrupted; ++k) {
-    const auto removal =
-        choose_removal(model, fluid, state.setup.species_index(model), rule, options.region, options.target, random, k, isa);
-    if (!removal) {
-      exchange.failures += state.remove - k;
-      return;
-    }
-    const auto at = static_cast<std::ptrdiff_t>(removal->particle);
-    exchange.removals.push_back({{"position", fluid.position(removal->particle)}, {"energy", removal->energy}});
-    fluid.species.erase(fluid.species.begin() + at);
-    fluid.positions.erase(fluid.positions.begin() + 3 * at, fluid.positions.begin() + 3 * at + 3);
+Json to_json(const InsertionRunResult& run, const InsertionRunOptions& options) {
+  InsertionOptions with = options.insertion;
+  with.target = run.target;
+  Json json;
+  json["insertions"] = Json::array();
+  for (std::size_t k = 0; k < run.insertions.size(); ++k) {
+    json["insertions"].push_back(to_json(run.insertions[k]));
+    if (!run.velocities.empty()) json["insertions"].back()["velocity"] = run.velocities[k];
   }
+  if (options.removals > 0) json["removals"] = Json::array();
+  for (const auto& removed : run.removals) json["removals"].push_back({{"position", removed.position}, {"energy", removed.energy}});
+  const double inserted = static_cast<double>(run.insertions.size());
+  json["mean_evaluations"] = run.insertions.empty() ? Json() : Json(static_cast<double>(run.evaluations) / inserted);
+  json["failures"] = run.failures;
+  json["seconds"] = run.seconds;
+  json["target"] = run.target;
+  json["measure"] = to_string(with.measure_in_force());
+  json["method"] = to_string(with.method);
+  json["outcome"] = run.interrupted ? "interrupted" : run.failures > 0 ? "limit of trials" : "done";
+  json["particles"] = run.fluid.size();
+  return json;
 }
 
-Json run_exchange(InsertState& state, Options& options, const PairModel& model, Isa isa, int& status) {
+Json run_into_file(InsertState& state, Options& options, const PairModel& model, Isa isa, int& status) {
   if (state.file.empty()) throw_bad_input("FILE is needed: the fluid to insert into; without one, --scan or --densify");
   Configuration fluid = read_first_frame(state.file, model);
-  if (fluid.size() == 0)
-    throw_bad_input(fmt::format("{}: insertion into an empty fluid is not allowed: at least one particle is needed", state.file));
-  if (state.temperature && (!(*state.temperature > 0.0) || !std::isfinite(*state.temperature)))
-    throw_bad_input(fmt::format("--temperature: {} is not allowed: it must be finite and above 0", *state.temperature));
-  parse_removal_rule(state.removal);
-  InsertionOptions with = state.setup.resolve(state.common.seed);
-  const std::optional<double> number = state.setup.number({"mean"});
-  with.target = number ? *number : mean_excess_energy(model, fluid, isa);
-  with.check(fluid.box);
-  // Refuses what the box and the model do not allow before there is a folder.
-  ProbeField(model, {fluid.box, {}, {}}, state.setup.species_index(model), kernel_table(isa));
+  const InsertionRunOptions with = run_options(state, model);
+  with.check(model, fluid);
   OutputFolder folder = open_folder(state.common);
   folder.write_run_file("insert", options.resolved());
   TerminalMonitor monitor(state.common.quiet);
-  const auto start = std::chrono::steady_clock::now();
-  Exchange exchange;
-  insert_into(fluid, state, model, with, isa, monitor, exchange);
-  remove_from(fluid, state, model, with, isa, exchange);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  Json result;
-  result["insertions"] = exchange.insertions;
-  if (state.remove > 0) result["removals"] = exchange.removals;
-  result["mean_evaluations"] =
-      exchange.insertions.empty()
-          ? Json()
-          : Json(static_cast<double>(exchange.evaluations) / static_cast<double>(exchange.insertions.size()));
-  result["failures"] = exchange.failures;
-  result["seconds"] = seconds.count();
-  result["target"] = with.target;
-  result["measure"] = to_string(with.measure_in_force());
-  result["method"] = to_string(with.method);
-  result["outcome"] = exchange.interrupted ? "interrupted" : exchange.failures > 0 ? "limit of trials" : "done";
-  result["particles"] = fluid.size();
-  status = exchange.interrupted || exchange.failures > 0 ? goal_not_reached : done;
-  if (!exchange.insertions.empty() || !exchange.removals.empty())
-    folder.write("inserted.extxyz", [&](std::ostream& out) { write_frame(out, fluid, model, {}); });
+  const InsertionRunResult run = run_insertion(model, std::move(fluid), with, isa, monitor);
+  const Json result = to_json(run, with);
+  status = run.interrupted || run.failures > 0 ? goal_not_reached : done;
+  if (!run.insertions.empty() || !run.removals.empty())
+    folder.write("inserted.extxyz", [&](std::ostream& out) { write_frame(out, run.fluid, model, {}); });
   write_result(folder, "insert", options.resolved(), result);
   return result;
 }
@@ -166,10 +119,10 @@ Json run_insert(InsertState& state, Options& options, int& status) {
   if (model.form->has_diameters)
     throw_bad_input(fmt::format("insert: model {} is not allowed: its particles have diameters of their own", model.name));
   if (state.scan && state.densify) throw_bad_input("--scan and --densify are not allowed together");
-  options.settle(joined({state.system.kinds(model), kinds_of(state)}));
+  options.settle(joined({state.system.kinds(model, state.file.empty()), kinds_of(state)}));
   Json result = state.scan      ? run_scan(state, options, model, isa, status)
                 : state.densify ? run_growth(state, options, model, isa, status)
-                                : run_exchange(state, options, model, isa, status);
+                                : run_into_file(state, options, model, isa, status);
   if (state.plot) draw_plots(state.common.out.empty() ? state.common.resume : state.common.out, state.common);
   return result;
 }

@@ -9,6 +9,7 @@
 #include "end_point_options.hpp"
 #include "interaction/sphere/rounding_overlaps.hpp"
 #include "io/extended_xyz.hpp"
+#include "observables/statistics.hpp"
 #include "plot.hpp"
 #include "run/path_run.hpp"
 
@@ -32,8 +33,8 @@ struct PathState {
 
   PathRunOptions run_options(const Model& model) const {
     PathRunOptions options;
-    options.method = parse_path_method(method.value_or(is_hard(model) ? "avoidance" : "contour"));
-    check_method(options.method, model);
+    options.method = method ? &path_method(*method) : &default_path_method(is_hard(model));
+    check_method(*options.method, model);
     options.direct_step = step;
     options.avoidance_step = avoidance_step.value_or(options.avoidance_step);
     if (fictitious) options.fictitious = parse_contact_potential(*fictitious);
@@ -46,13 +47,13 @@ struct PathState {
     return options;
   }
 
-  RunKinds kinds(const Model& model, PathMethod of_method) const {
-    const std::string with = fmt::format("with method {}", to_string(of_method));
+  RunKinds kinds(const Model& model, const PathMethod& of_method) const {
+    const std::string with = fmt::format("with method {}", of_method.word);
     return joined({{kind_if(pair_files.empty(), made_pairs, "without --pair", "with --pair")},
                    setup.kinds(!pair_files.empty()),
-                   system.kinds(model),
-                   {common.folder_kind(), kind_if(of_method == PathMethod::avoidance, collision_avoidance, with, with),
-                    kind_if(of_method != PathMethod::away, direct_steps_of_a_length, with, with)}});
+                   system.kinds(model, pair_files.empty() && setup.generates_start()),
+                   {common.folder_kind(), kind_if(of_method.word == std::string_view("avoidance"), collision_avoidance, with, with),
+                    kind_if(of_method.direct_step.has_value(), direct_steps_of_a_length, with, with)}});
   }
 };
 
@@ -98,7 +99,7 @@ std::vector<ConfigurationPair> read_kept_pairs(const OutputFolder& folder, const
   return pairs;
 }
 
-Json to_json(const PathResult& path, PathMethod method, const Mixture& mixture) {
+Json to_json(const PathResult& path, const PathMethod& method, const Mixture& mixture) {
   const auto particles = static_cast<double>(path.frames.front().size());
   const bool complete = path.outcome == Outcome::reached;
   Json json;
@@ -108,11 +109,11 @@ Json to_json(const PathResult& path, PathMethod method, const Mixture& mixture) 
   json["distance"] = path.distance;
   json["ratio_squared"] = complete ? Json(path.ratio_squared()) : Json();
   json["participation_ratio"] = path.participation_number / particles;
-  json["steps"] = {{"direct", path.direct_steps}, {to_string(method), path.detour_steps}};
+  json["steps"] = {{"direct", path.direct_steps}, {method.word, path.detour_steps}};
   json["corrections"] = path.corrections;
   json["evaluations"] = path.evaluations;
   json["seconds"] = path.seconds;
-  json["landscape_energy"] = is_hard(method) ? Json() : Json(path.landscape_energy);
+  json["landscape_energy"] = method.is_hard ? Json() : Json(path.landscape_energy);
   json["largest_violation"] = path.largest_violation;
   for (const StepHistogram& h : path.histograms) json["mean_over_steps"][h.quantity] = h.mean();
   for (std::size_t s = 0; complete && s < path.heterogeneity.size(); ++s)
@@ -123,22 +124,17 @@ Json to_json(const PathResult& path, PathMethod method, const Mixture& mixture) 
 
 // Mean of (DeltaR/g)^2 over the paths that reached their goal, and its standard error from two paths on.
 void add_mean(Json& json, const std::vector<PathResult>& paths) {
-  double sum = 0.0, squares = 0.0, n = 0.0;
-  for (const PathResult& path : paths) {
-    if (path.outcome != Outcome::reached) continue;
-    sum += path.ratio_squared();
-    n += 1.0;
-  }
-  const double mean = n > 0.0 ? sum / n : 0.0;
+  std::vector<double> ratios;
   for (const PathResult& path : paths)
-    if (path.outcome == Outcome::reached) squares += (path.ratio_squared() - mean) * (path.ratio_squared() - mean);
-  json["mean_ratio_squared"] = n > 0.0 ? Json(mean) : Json();
-  json["standard_error"] = n > 1.0 ? Json(std::sqrt(squares / (n * (n - 1.0)))) : Json();
+    if (path.outcome == Outcome::reached) ratios.push_back(path.ratio_squared());
+  const Estimate estimate = estimate_mean(ratios);
+  json["mean_ratio_squared"] = ratios.empty() ? Json() : Json(estimate.value);
+  json["standard_error"] = estimate.error ? Json(*estimate.error) : Json();
 }
 
-void write_trace(std::ostream& out, const PathResult& path, PathMethod method) {
+void write_trace(std::ostream& out, const PathResult& path, const PathMethod& method) {
   fmt::print(out, "step,length,distance_to_goal,{},direct_fraction,participation_ratio\n",
-             is_hard(method) ? "moved_particles" : "energy");
+             method.is_hard ? "moved_particles" : "energy");
   const DecimatedTrace& trace = path.trace;
   double step_before = 0.0, direct_before = 0.0;
   for (std::size_t r = 0; r < trace.rows(); ++r) {
@@ -165,12 +161,12 @@ void write_particles(std::ostream& out, const PathResult& path, const Mixture& m
                path.particle_lengths[j], path.particle_displacements[j]);
 }
 
-void write_files(OutputFolder& folder, const std::vector<PathResult>& paths, PathMethod method, const Mixture& model) {
+void write_files(OutputFolder& folder, const std::vector<PathResult>& paths, const PathMethod& method, const Mixture& model) {
   folder.write("paths.csv", [&](std::ostream& out) {
     fmt::print(out,
                "path,outcome,length,distance,ratio_squared,participation_ratio,direct_steps,{}_steps,evaluations,seconds,"
                "landscape_energy,largest_violation,reversed\n",
-               to_string(method));
+               method.word);
     for (std::size_t k = 0; k < paths.size(); ++k) {
       const PathResult& p = paths[k];
       fmt::print(out, "{},{},{},{},{},{},{},{},{},{},{},{},{}\n", k + 1, to_string(p.outcome), p.length, p.distance,
@@ -209,7 +205,7 @@ PathInput read_input(PathState& state, const Model& model, Isa isa) {
 }
 
 // The paths found, in JSON; whether all reached their goal.
-bool add_paths(Json& json, const std::vector<PathResult>& paths, PathMethod method, const Mixture& mixture) {
+bool add_paths(Json& json, const std::vector<PathResult>& paths, const PathMethod& method, const Mixture& mixture) {
   json["paths"] = Json::array();
   for (const PathResult& path : paths) json["paths"].push_back(to_json(path, method, mixture));
   add_mean(json, paths);
@@ -250,10 +246,10 @@ void add_system(Json& json, const PathState& state, const Model& model, const st
 
 // Everything the run needs, checked before there is a folder.
 PathInput prepare(PathState& state, Options& options, const Model& model, const PathRunOptions& path_options, Isa isa) {
-  options.settle(state.kinds(model, path_options.method));
+  options.settle(state.kinds(model, *path_options.method));
   path_options.check();
-  state.method = to_string(path_options.method);
-  if (path_options.method != PathMethod::away) state.step = path_options.step_length();
+  state.method = path_options.method->word;
+  if (path_options.method->direct_step) state.step = path_options.step_length();
   const bool makes_pairs = state.pair_files.empty();
   if (makes_pairs) state.setup.settle(model);
   PathInput input = read_input(state, model, isa);
@@ -279,10 +275,10 @@ Json run_path(PathState& state, Options& options, int& status) {
     TerminalMonitor monitor(state.common.quiet);
     paths = run_paths(model, ends.pairs, path_options, isa, {folder.checkpoints(), !state.common.resume.empty()}, monitor);
   }
-  const bool all_reached = add_paths(result, paths, path_options.method, mixture_of(model)) && ends.all;
+  const bool all_reached = add_paths(result, paths, *path_options.method, mixture_of(model)) && ends.all;
   add_system(result, state, model, ends.pairs, isa);
   status = all_reached ? done : goal_not_reached;
-  if (folder.exists()) write_files(folder, paths, path_options.method, mixture_of(model));
+  if (folder.exists()) write_files(folder, paths, *path_options.method, mixture_of(model));
   write_result(folder, "path", options.resolved(), result);
   if (state.plot) draw_plots(folder.path(), state.common);
   return result;
@@ -295,7 +291,9 @@ Subcommand add_path(CLI::App& app) {
   const auto options = std::make_shared<Options>(*sub);
   const auto state = std::make_shared<PathState>();
   options->add("--pair", state->pair_files, "files with two frames, the end points; without any, pairs are made as by endpoints");
-  options->add("--method", state->method, "contour or escape; avoidance or away for hard spheres [contour, avoidance]");
+  options->add("--method", state->method,
+               fmt::format("{}; {} for hard spheres [{}, {}]", path_method_words(false, " or "), path_method_words(true, " or "),
+                           default_path_method(false).word, default_path_method(true).word));
   // Nothing to choose yet: a name for what is done anyway.
   sub->add_flag_function("--faithful", [](std::int64_t) {}, "steps exactly as published (the default)")->disable_flag_override();
   options->add("--step", state->step, "length of a direct step in 3N space [sigma] [0.001; hard spheres 0.01]")

@@ -62,7 +62,7 @@ Json run_verify(VerifyState& state, Options& options, int& status) {
   const std::vector<Isa> isas = forced ? std::vector{state.common.resolve_isa()} : available_isas();
   const Model model = state.system.resolve();
   options.settle(
-      joined({state.system.kinds(model), {kind_if(!state.files.empty(), runs_with_files, "with FILES", "without FILES")}}));
+      joined({state.system.kinds(model, false), {kind_if(!state.files.empty(), runs_with_files, "with FILES", "without FILES")}}));
   std::vector<PairCase> cases = pair_cases();
   add_files(cases, state.files, state.system.resolve_pair_model("verify"));
   OutputFolder folder = open_folder(state.common);

@@ -23,6 +23,7 @@ class EndPointSetup {
   void add_tolerance_to(Options& options);
   // Where the start comes from; with pairs of files no start is made.
   RunKinds kinds(bool has_pair_files) const;
+  bool generates_start() const { return start_file_.empty(); }
 
   // A pair's distance where --distance is not given: 108 at N = 108, else 10 sqrt(N) [sigma].
   static double default_distance(std::size_t particles);

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "insert_runs.hpp"
+#include "result_table.hpp"
 #include "run/insertion_scan.hpp"
 
 namespace lanescape::program {
@@ -47,10 +48,7 @@ InsertionScanOptions scan_options(const InsertState& state, const PairModel& mod
   return with;
 }
 
-// Names and numbers of one row, for JSON and for the columns of a file alike.
-using Row = std::vector<std::pair<const char*, Json>>;
-
-Row row_of(const ScanCostRow& r) {
+ResultRow row_of(const ScanCostRow& r) {
   const Json step = r.largest_step > 0.0 ? Json(r.largest_step) : Json("default");
   return {{"density", r.density},
           {"temperature", r.temperature},
@@ -70,7 +68,7 @@ Row row_of(const ScanCostRow& r) {
           {"seconds", r.seconds}};
 }
 
-Row row_of(const ScanStateRow& r) {
+ResultRow row_of(const ScanStateRow& r) {
   return {{"density", r.density},
           {"temperature", r.temperature},
           {"measured_temperature", r.measured_temperature},
@@ -80,41 +78,14 @@ Row row_of(const ScanStateRow& r) {
           {"chemical_potential_error", r.chemical_potential_error}};
 }
 
-Row row_of(const ScanHoleRow& r) {
+ResultRow row_of(const ScanHoleRow& r) {
   return {{"density", r.density},       {"temperature", r.temperature}, {"iso_energy", r.iso_energy},
           {"holes", r.holes},           {"mean_radius", r.mean_radius}, {"semi_minor", r.semi_minor},
           {"semi_major", r.semi_major}, {"anisotropy", r.anisotropy},   {"eccentricity", r.eccentricity},
           {"open_directions", r.open}};
 }
 
-Row row_of(const ScanErrorPair& r) { return {{"density", r.density}, {"error", r.error}, {"next_error", r.next_error}}; }
-
-template <class Rows>
-void write_table(OutputFolder& folder, const std::string& name, const Rows& rows) {
-  if (rows.empty()) return;
-  folder.write(name, [&](std::ostream& out) {
-    const char* comma = "";
-    for (const auto& [column, value] : row_of(rows.front())) out << std::exchange(comma, ",") << column;
-    out << '\n';
-    for (const auto& row : rows) {
-      comma = "";
-      for (const auto& [column, value] : row_of(row))
-        out << std::exchange(comma, ",") << (value.is_string() ? value.template get<std::string>() : value.dump());
-      out << '\n';
-    }
-  });
-}
-
-template <class Rows>
-Json table_json(const Rows& rows) {
-  Json json = Json::array();
-  for (const auto& row : rows) {
-    Json object;
-    for (const auto& [column, value] : row_of(row)) object[column] = value;
-    json.push_back(std::move(object));
-  }
-  return json;
-}
+ResultRow row_of(const ScanErrorPair& r) { return {{"density", r.density}, {"error", r.error}, {"next_error", r.next_error}}; }
 
 }  // namespace
 
@@ -125,22 +96,22 @@ Json run_scan(InsertState& state, const Options& options, const PairModel& model
   TerminalMonitor monitor(state.common.quiet);
   const InsertionScanResult run =
       run_insertion_scan(model, with, isa, {folder.checkpoints(), !state.common.resume.empty()}, monitor);
+  const auto row = [](const auto& r) { return row_of(r); };
+  const ResultTable costs = table_of(run.costs, row), states = table_of(run.states, row), holes = table_of(run.holes, row);
   double failures = 0.0;
-  for (const ScanCostRow& row : run.costs) failures += row.failures;
+  for (const ScanCostRow& cost : run.costs) failures += cost.failures;
   Json result;
-  result["scan"] = table_json(run.costs);
-  result["states"] = table_json(run.states);
-  if (!run.holes.empty()) result["holes"] = table_json(run.holes);
+  result["scan"] = to_json(costs);
+  result["states"] = to_json(states);
+  if (!run.holes.empty()) result["holes"] = to_json(holes);
   result["failures"] = failures;
   result["outcome"] = run.interrupted ? "interrupted" : failures > 0.0 ? "limit of trials" : "done";
   result["seconds"] = run.seconds;
   status = run.interrupted || failures > 0.0 ? goal_not_reached : done;
-  if (folder.exists()) {
-    write_table(folder, "scan.csv", run.costs);
-    write_table(folder, "states.csv", run.states);
-    write_table(folder, "holes.csv", run.holes);
-    write_table(folder, "errors.csv", run.errors);
-  }
+  write_table(folder, "scan.csv", costs);
+  write_table(folder, "states.csv", states);
+  write_table(folder, "holes.csv", holes);
+  write_table(folder, "errors.csv", table_of(run.errors, row));
   write_result(folder, "insert", options.resolved(), result);
   return result;
 }

@@ -55,8 +55,8 @@ struct SystemOptions {
   void add_to(Options& options);
   // Throws Error(bad_input) for values that the model does not allow. Options::settle() refuses those that it has no use for.
   Model resolve() const;
-  // The family of the resolved model, and whether it has a name or a file.
-  RunKinds kinds(const Model& resolved) const;
+  // The family of the resolved model, whether it has a name or a file, and whether the run generates its particles.
+  RunKinds kinds(const Model& resolved, bool generates_start) const;
   // Of soft models.
   Precision resolve_precision() const;
   // Refuses mixed precision in a box where it is not to be had.
@@ -90,6 +90,7 @@ Subcommand add_endpoints(CLI::App& app);
 Subcommand add_path(CLI::App& app);
 Subcommand add_diffusion(CLI::App& app);
 Subcommand add_insert(CLI::App& app);
+Subcommand add_slab(CLI::App& app);
 Subcommand add_verify(CLI::App& app);
 
 // Watches for SIGINT and SIGTERM, and draws a progress bar with rate and remaining time where stderr is a terminal.

@@ -50,29 +50,28 @@ RunKind CommonOptions::folder_kind() const {
 
 namespace {
 
+constexpr Scope generated_starts{"particles", "runs that generate their particles, without a file of them"};
 constexpr Scope named_models{"model", "runs without a model file, or with one of kind ucg"};
 
 }  // namespace
 
 void SystemOptions::add_to(Options& options) {
-  options
-      .add("--model", model,
-           "kob-andersen, lennard-jones, wca, wahnstrom, polydisperse, mie, inverse-power, harmonic, hertzian, hard-sphere, "
-           "hard-sphere-binary or ucg")
-      .only_for({named_models});
+  options.add("--model", model, model_names()).only_for({named_models});
   options.add("--model-file", model_file, "model file (TOML) instead of --model; of kind ucg with --model ucg");
   options.begin_group({soft_models});
   options.add("--cutoff", cutoff, "cutoff of a soft model in units of sigma_ab; of ucg in sigma [2.5]");
   options.add("--images", images, "periodic images of a soft model: all within the cutoff, or the minimum image only [all]");
   options.add("--truncation", truncation, "of a soft model: shifted, plain, tail, shifted-force or smooth [shifted]");
-  options.add("--composition", composition, "of a soft model's generated starts: fractions of the species, 0.65,0.35");
+  options.add("--composition", composition, "of a soft model's generated starts: fractions of the species, 0.65,0.35")
+      .only_for({generated_starts});
   options.add("--precision", precision, "of a soft model's pairs: double, or mixed: single with sums in double [double]");
   options.end_group();
 }
 
-RunKinds SystemOptions::kinds(const Model& resolved) const {
+RunKinds SystemOptions::kinds(const Model& resolved, bool generates_start) const {
   const std::string with = fmt::format("with model {}", mixture_of(resolved).name);
   return {{is_hard(resolved) ? hard_spheres : soft_models, with},
+          kind_if(generates_start, generated_starts, "without a file of particles", "with a file of particles"),
           kind_if(model_file.empty() || model == "ucg", named_models, "with --model", "with --model-file")};
 }
 

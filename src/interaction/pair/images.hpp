@@ -6,7 +6,7 @@
 
 namespace lanescape {
 
-// Which image search a cutoff needs in a box (docs/ARCHITECTURE.md, "Small boxes"); lengths in the same unit.
+// Which image search a cutoff needs in a box (src/interaction/README.md, "Small boxes"); lengths in the same unit.
 kernels::ImageSearch image_search(const Box& box, double cutoff, ImageRule rule);
 
 // Shifts by more than this many boxes bring no image of a nearest separation (|d| <= L/2) within the cutoff.

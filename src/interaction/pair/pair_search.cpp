@@ -2,17 +2,19 @@
 
 #include <fmt/format.h>
 
+#include "core/enum_words.hpp"
 #include "core/error.hpp"
 
 namespace lanescape {
 
-const char* to_string(Precision precision) { return precision == Precision::mixed ? "mixed" : "double"; }
+namespace {
 
-Precision parse_precision(std::string_view word) {
-  for (const Precision precision : {Precision::double_precision, Precision::mixed})
-    if (word == to_string(precision)) return precision;
-  throw_bad_input(fmt::format("precision '{}' is not allowed: double or mixed", word));
-}
+constexpr EnumWord<Precision> precisions[] = {{Precision::double_precision, "double"}, {Precision::mixed, "mixed"}};
+
+}  // namespace
+
+const char* to_string(Precision precision) { return word_of(precisions, precision); }
+Precision parse_precision(std::string_view word) { return parse_word(precisions, "precision", word); }
 
 bool fits_list(const PairModel& model, const Box& box, double skin, double scale) {
   if (model.images == ImageRule::all) return true;

@@ -10,8 +10,8 @@ namespace lanescape {
 // How pairs are found: over all of them, or over a neighbour list; or whichever is faster, by the number of particles.
 enum class PairSearch { automatic, all_pairs, list };
 
-// Of the arithmetic of pairs. Mixed: single precision, over a list, with sums in double and the error that docs/ARCHITECTURE.md
-// states. What double_precision means is the rest of the library.
+// Of the arithmetic of pairs. Mixed: single precision, over a list, with sums in double and the error that
+// src/interaction/README.md states. What double_precision means is the rest of the library.
 enum class Precision { double_precision, mixed };
 const char* to_string(Precision precision);        // "double" or "mixed"
 Precision parse_precision(std::string_view word);  // throws Error(bad_input)

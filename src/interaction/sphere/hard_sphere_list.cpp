@@ -77,4 +77,9 @@ void HardSphereList::add_contact_forces(kernels::ContactPotential potential, Ali
   spheres_->table().sphere_contact_forces(list_, contacts_, contact_count_, potential, force.data(), force.size() / 3);
 }
 
+std::size_t HardSphereList::avoidance_trial(AlignedArray& trial, const AlignedArray& position, AlignedArray& sum,
+                                            AlignedArray& force, double step) const {
+  return spheres_->table().sphere_avoidance_trial(trial.data(), position.data(), sum.data(), force.data(), step, trial.size() / 3);
+}
+
 }  // namespace lanescape

@@ -31,6 +31,11 @@ class HardSphereList {
   // Adds the fictitious forces of the pairs found last to `force`.
   void add_contact_forces(kernels::ContactPotential potential, AlignedArray& force);
 
+  // Adds `force`, scaled to length 1 in 3N space, to `sum` and zeroes it. `trial` is `position` with each particle that has a sum
+  // moved by `step` along it [sigma]. Returns how many particles moved ([G] Eqs. 3.29-3.33).
+  std::size_t avoidance_trial(AlignedArray& trial, const AlignedArray& position, AlignedArray& sum, AlignedArray& force,
+                              double step) const;
+
   std::uint64_t rebuilds() const { return rebuilds_; }
   std::size_t pairs() const { return list_.count; }
 

@@ -253,7 +253,7 @@ TEST(Insertion, RefusesWhatMakesNoSense) {
   EXPECT_EQ(refused([](auto& o) { o.most_trials = 0; }), "most trials 0 is not allowed: from 1 to 1000000000");
   EXPECT_NE(refused([](auto& o) { o.contact = 0.4; }).find("contact distance 0.4 is not allowed: above 0.5"), std::string::npos);
   EXPECT_EQ(testing::refusal([] { parse_insertion_method("newton"); }),
-            "method 'newton' is not allowed: usher, usher-indirect, usher-near, screened, descent");
+            "unknown method 'newton': allowed are usher, usher-indirect, usher-near, screened, descent");
   ProbeField empty(kob_andersen(), {box, {}, {}}, 0, table());
   InsertionHistory history;
   EXPECT_EQ(testing::refusal([&] { find_places(empty, options_with(-1.0), 1, history, 1); }),

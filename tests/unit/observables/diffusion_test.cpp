@@ -175,9 +175,8 @@ TEST(Diffusion, LangevinParticlesDiffuseWithTemperatureTimesMemoryTime) {
   for (int trajectory = 0; trajectory < 24; ++trajectory) diffusion.add_trajectory(particles.run(window));
   for (std::size_t s = 0; s < 2; ++s) {
     const double exact = temperatures[s] * times[s];
-    const BlockEstimate vacf = diffusion.vacf_diffusion(s), msd = diffusion.msd_diffusion(s),
-                        late = diffusion.long_time_diffusion(s);
-    for (const BlockEstimate& estimate : {vacf, msd, late}) {
+    const Estimate vacf = diffusion.vacf_diffusion(s), msd = diffusion.msd_diffusion(s), late = diffusion.long_time_diffusion(s);
+    for (const Estimate& estimate : {vacf, msd, late}) {
       ASSERT_TRUE(estimate.error.has_value());
       EXPECT_LT(*estimate.error, 0.12 * exact);
       EXPECT_NEAR(estimate.value, exact, 4.0 * *estimate.error);
@@ -185,7 +184,7 @@ TEST(Diffusion, LangevinParticlesDiffuseWithTemperatureTimesMemoryTime) {
     EXPECT_NEAR(vacf.value, msd.value, 2.0 * *vacf.error);  // the same trajectories
     EXPECT_EQ(diffusion.regime(s), DiffusionRegime::diffusive);
     const std::size_t middle = diffusion.points() / 10;  // about one memory time
-    const BlockEstimate c = diffusion.velocity_correlation(s, middle);
+    const Estimate c = diffusion.velocity_correlation(s, middle);
     EXPECT_NEAR(c.value, 3.0 * temperatures[s] * std::exp(-diffusion.time(middle) / times[s]), 4.0 * *c.error);
   }
 }
@@ -196,7 +195,7 @@ TEST(Diffusion, BothRoutesAgreeWhereTheWindowEndsBeforeTheMemory) {
   DiffusionAccumulator diffusion(layout, window);
   LangevinParticles particles(layout, window.interval, {1.0}, {1.0}, 8);
   for (int trajectory = 0; trajectory < 20; ++trajectory) diffusion.add_trajectory(particles.run(window));
-  const BlockEstimate vacf = diffusion.vacf_diffusion(0), msd = diffusion.msd_diffusion(0);
+  const Estimate vacf = diffusion.vacf_diffusion(0), msd = diffusion.msd_diffusion(0);
   EXPECT_NEAR(vacf.value, 1.0 - std::exp(-1.0), 4.0 * *vacf.error);
   EXPECT_NEAR(msd.value, vacf.value, 2e-3);  // a line through the last tenth would be 0.018 below
   EXPECT_EQ(diffusion.regime(0), DiffusionRegime::ballistic);
@@ -282,7 +281,7 @@ TEST(Diffusion, ErrorsAreStandardErrorsOverTrajectories) {
     ASSERT_EQ(diffusion.trajectories(), static_cast<std::uint64_t>(count));
     EXPECT_EQ(diffusion.vacf_diffusion(0).error.has_value(), count > 1);
     if (count % 2 == 1) continue;
-    for (const BlockEstimate& estimate : {diffusion.vacf_diffusion(0), diffusion.msd_diffusion(0)}) {
+    for (const Estimate& estimate : {diffusion.vacf_diffusion(0), diffusion.msd_diffusion(0)}) {
       EXPECT_NEAR(estimate.value, 5.0, 1e-12);
       EXPECT_NEAR(estimate.error.value(), 3.0 / std::sqrt(count - 1.0), 1e-12);
     }

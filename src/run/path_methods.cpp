@@ -1,0 +1,83 @@
+// The table of path methods: a new stepper is one function and one line here.
+
+#include <fmt/format.h>
+
+#include "configuration/model_traits.hpp"
+#include "core/error.hpp"
+#include "landscape/hard_sphere_landscape.hpp"
+#include "run/path_search.hpp"
+#include "stepper/avoidance.hpp"
+#include "stepper/away.hpp"
+#include "stepper/contour.hpp"
+#include "stepper/escape.hpp"
+
+namespace lanescape {
+namespace {
+
+std::unique_ptr<HardSphereLandscape> hard_landscape(const SearchSetup& setup) {
+  return std::make_unique<HardSphereLandscape>(setup.pair.start.box, setup.prepared.layout, setup.pair.start.radii, setup.isa);
+}
+
+std::unique_ptr<PathSearch> begin_contour(const SearchSetup& setup) {
+  auto landscape = path_landscape(setup);
+  ContourStepper stepper(*landscape, setup.prepared.landscape_energy, {.direct_step = setup.options.step_length()});
+  return begin_search(setup, std::move(landscape), std::move(stepper));
+}
+
+std::unique_ptr<PathSearch> begin_escape(const SearchSetup& setup) {
+  auto landscape = path_landscape(setup);
+  EscapeStepper stepper(*landscape, setup.prepared.landscape_energy, {.direct_step = setup.options.step_length()});
+  return begin_search(setup, std::move(landscape), std::move(stepper));
+}
+
+std::unique_ptr<PathSearch> begin_avoidance(const SearchSetup& setup) {
+  auto landscape = hard_landscape(setup);
+  AvoidanceStepper stepper(*landscape, {.direct_step = setup.options.step_length(),
+                                        .avoidance_step = setup.options.avoidance_step,
+                                        .potential = setup.options.fictitious});
+  return begin_search(setup, std::move(landscape), std::move(stepper));
+}
+
+std::unique_ptr<PathSearch> begin_away(const SearchSetup& setup) {
+  auto landscape = hard_landscape(setup);
+  AwayStepper stepper(setup.pair.start.box, setup.prepared.layout, setup.pair.start.radii, *landscape, setup.goal(), {});
+  return begin_search(setup, std::move(landscape), std::move(stepper));
+}
+
+// Avoidance makes long detours of short steps: it needs the most patience.
+constexpr PathMethod methods[] = {{"contour", false, 1e-3, 1, begin_contour},
+                                  {"escape", false, 1e-3, 1, begin_escape},
+                                  {"avoidance", true, 1e-2, 1000, begin_avoidance},
+                                  {"away", true, {}, 10, begin_away}};
+
+}  // namespace
+
+std::span<const PathMethod> path_methods() { return methods; }
+
+const PathMethod& default_path_method(bool is_hard) {
+  for (const PathMethod& method : methods)
+    if (method.is_hard == is_hard) return method;
+  throw Error(ErrorCode::internal, "a family of models has no path method");
+}
+
+const PathMethod& path_method(std::string_view word) {
+  for (const PathMethod& method : methods)
+    if (word == method.word) return method;
+  throw_bad_input(fmt::format("unknown method '{}': allowed are {} (soft particles), {} (hard spheres)", word,
+                              path_method_words(false), path_method_words(true)));
+}
+
+std::string path_method_words(bool is_hard, std::string_view separator) {
+  std::string words;
+  for (const PathMethod& method : methods)
+    if (method.is_hard == is_hard) words += fmt::format("{}{}", words.empty() ? "" : separator, method.word);
+  return words;
+}
+
+void check_method(const PathMethod& method, const Model& model) {
+  if (method.is_hard == is_hard(model)) return;
+  throw_bad_input(fmt::format("method {} is not for model {}: {} are for soft particles, {} for hard spheres", method.word,
+                              mixture_of(model).name, path_method_words(false, " and "), path_method_words(true, " and ")));
+}
+
+}  // namespace lanescape
