@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "core/error.hpp"
 #include "dynamics/event_driven.hpp"
 #include "landscape/hard_sphere_landscape.hpp"
+#include "memory_archive.hpp"
 #include "reference/hard_geodesic.hpp"
 
 namespace lanescape {
@@ -95,38 +95,6 @@ class Walk {
   HardSphereLandscape landscape_;
   AlignedArray goal_, position_, to_goal_, next_;
   AwayStepper stepper_;
-};
-
-// Keeps fields in memory.
-class Memory final : public Archive {
- public:
-  void rewind() { reading_ = true; }
-  bool reading() const override { return reading_; }
-  void field(std::string_view name, double& value) override { keep(doubles_, name, value); }
-  void field(std::string_view name, std::uint64_t& value) override { keep(counts_, name, value); }
-  void field(std::string_view name, std::string& value) override { keep(words_, name, value); }
-  void field(std::string_view name, std::vector<double>& value) override { keep(vectors_, name, value); }
-  void field(std::string_view name, AlignedArray& value) override { keep(arrays_, name, value); }
-  void field(std::string_view name, std::vector<std::uint64_t>& value) override { keep(histograms_, name, value); }
-  void enter(std::string_view) override {}
-  void leave() override {}
-
- private:
-  template <class Value>
-  void keep(std::map<std::string, Value>& values, std::string_view name, Value& value) {
-    if (reading_)
-      value = values.at(std::string(name));
-    else
-      values.emplace(name, value);
-  }
-
-  bool reading_ = false;
-  std::map<std::string, double> doubles_;
-  std::map<std::string, std::uint64_t> counts_;
-  std::map<std::string, std::string> words_;
-  std::map<std::string, std::vector<double>> vectors_;
-  std::map<std::string, AlignedArray> arrays_;
-  std::map<std::string, std::vector<std::uint64_t>> histograms_;
 };
 
 double distance(const Point& a, const Point& b) {
@@ -348,11 +316,8 @@ TEST(AwayStepper, APathThatIsArchivedAndReadGoesOnWithTheSameBits) {
     between = between || all.visits[cut - 1].kind == StepKind::direct;
     Walk first(problem);
     first.go(cut);
-    Memory memory;
-    first.exchange(memory);
-    memory.rewind();
     Walk second(problem);
-    second.exchange(memory);
+    testing::hand_on(first, second);
     EXPECT_EQ(second.stepper().monitored(), first.stepper().monitored());
     EXPECT_EQ(second.stepper().violation(), first.stepper().violation());
     rounding = rounding || first.stepper().violation() > 0.0;

@@ -12,6 +12,7 @@
 #include "core/run_monitor.hpp"
 #include "dispatch/isa.hpp"
 #include "dynamics/hard_sphere_start.hpp"
+#include "memory_archive.hpp"
 #include "reference/event_driven.hpp"
 #include "reference/hard_sphere.hpp"
 
@@ -47,36 +48,6 @@ std::vector<double> unequal_masses(std::size_t particles) {
 
 // Carnahan and Starling's value at contact.
 double contact_value(double phi) { return (1.0 - 0.5 * phi) / std::pow(1.0 - phi, 3); }
-
-// A state in memory: what was written is read in the same order.
-class MemoryArchive final : public Archive {
- public:
-  bool reading() const override { return reading_; }
-  void read() { reading_ = true; }
-  void field(std::string_view, double& value) override { exchange(doubles_, next_double_, value); }
-  void field(std::string_view, std::uint64_t& value) override { exchange(counts_, next_count_, value); }
-  void field(std::string_view, std::string&) override { FAIL(); }
-  void field(std::string_view, std::vector<double>& value) override { exchange(vectors_, next_vector_, value); }
-  void field(std::string_view, AlignedArray& value) override { exchange(arrays_, next_array_, value); }
-  void field(std::string_view, std::vector<std::uint64_t>&) override { FAIL(); }
-  void enter(std::string_view) override {}
-  void leave() override {}
-
- private:
-  template <class T>
-  void exchange(std::vector<T>& store, std::size_t& next, T& value) {
-    if (reading_)
-      value = store.at(next++);
-    else
-      store.push_back(value);
-  }
-  bool reading_ = false;
-  std::vector<double> doubles_;
-  std::vector<std::uint64_t> counts_;
-  std::vector<std::vector<double>> vectors_;
-  std::vector<AlignedArray> arrays_;
-  std::size_t next_double_ = 0, next_count_ = 0, next_vector_ = 0, next_array_ = 0;
-};
 
 TEST(EventDriven, CollidesAsTheReferenceDoesWithUnequalMassesAndDiameters) {
   for (const double phi : {0.20, 0.45}) {
@@ -162,10 +133,7 @@ TEST(EventDriven, AStateReadAtAResynchronisationGoesOnWithTheSameBits) {
   EventDriven whole = moving(start), resumed = moving(start);
   collide(whole, whole.resync_interval());
   ASSERT_TRUE(whole.at_resync());
-  MemoryArchive archive;
-  whole.exchange(archive);
-  archive.read();
-  resumed.exchange(archive);
+  testing::hand_on(whole, resumed);
   collide(whole, 30'000);
   collide(resumed, 30'000);
   EXPECT_EQ(resumed.positions(), whole.positions());

@@ -8,6 +8,7 @@
 #include "dynamics/langevin.hpp"
 #include "dynamics/velocity_verlet.hpp"
 #include "landscape/state_mixture_landscape.hpp"
+#include "memory_archive.hpp"
 #include "refusal.hpp"
 #include "verification/state_mixture_cases.hpp"
 
@@ -158,32 +159,6 @@ TEST(Langevin, KeepsALiquidAtItsTemperature) {
   EXPECT_NEAR(mean, 1.2, 0.024);
 }
 
-// What was written is read in the same order.
-class Memory final : public Archive {
- public:
-  bool reading() const override { return reading_; }
-  void read() { reading_ = true; }
-  void field(std::string_view, double&) override { FAIL(); }
-  void field(std::string_view, std::uint64_t& value) override { reading_ ? void(value = count_) : void(count_ = value); }
-  void field(std::string_view, std::string&) override { FAIL(); }
-  void field(std::string_view, std::vector<double>&) override { FAIL(); }
-  void field(std::string_view, AlignedArray& value) override {
-    if (reading_)
-      value = arrays_.at(next_++);
-    else
-      arrays_.push_back(value);
-  }
-  void field(std::string_view, std::vector<std::uint64_t>&) override { FAIL(); }
-  void enter(std::string_view) override {}
-  void leave() override {}
-
- private:
-  bool reading_ = false;
-  std::uint64_t count_ = 0;
-  std::vector<AlignedArray> arrays_;
-  std::size_t next_ = 0;
-};
-
 TEST(Langevin, ResumedEndsWithTheBitsOfAnUninterruptedRun) {
   const StateMixtureVariant variant{2, 2, Filter::asymmetric, Potentials::both, 0.6};
   const LangevinOptions options{1.0, 1.0, 4e-3, 2};
@@ -192,11 +167,8 @@ TEST(Langevin, ResumedEndsWithTheBitsOfAnUninterruptedRun) {
   for (int k = 0; k < 200; ++k) uninterrupted.step();
   Langevin before(half.landscape, half.model, half.layout, half.start(), options);
   for (int k = 0; k < 93; ++k) before.step();
-  Memory memory;
-  before.exchange(memory);
-  memory.read();
   Langevin after(rest.landscape, rest.model, rest.layout, rest.start(), options);
-  after.exchange(memory);
+  testing::hand_on(before, after);
   while (after.steps() < 200) after.step();
   EXPECT_EQ(after.position(), uninterrupted.position());
   EXPECT_EQ(after.velocity(), uninterrupted.velocity());
