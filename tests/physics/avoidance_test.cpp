@@ -154,12 +154,5 @@ TEST(Avoidance, HeadOnSpheresStallWithAReason) {
   EXPECT_FALSE(search.finder.reason().empty());
 }
 
-TEST(Avoidance, PotentialsAreParsedByName) {
-  for (const auto potential :
-       {kernels::ContactPotential::harmonic, kernels::ContactPotential::linear, kernels::ContactPotential::cubic})
-    EXPECT_EQ(parse_contact_potential(to_string(potential)), potential);
-  EXPECT_THROW(parse_contact_potential("soft"), std::runtime_error);
-}
-
 }  // namespace
 }  // namespace lanescape

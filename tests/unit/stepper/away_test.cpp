@@ -189,6 +189,23 @@ TEST(AwayStepper, TwoSpheresTakeTheStepsOfTheReference) {
       few({0.0, 0.6, 0.0, -3.0, 0.0, 0.0, 0.1, 1.61, 0.0}, {0.0, 0.6, 0.0, 3.0, 0.0, 0.0, 0.1, 1.61, 0.0}), 3);
 }
 
+// 0 flies into 1, which makes way sideways and takes along 2, side by side with it; 0 then advances beside the two.
+TEST(AwayStepper, ASphereInTheWayPushesTheOneBehindItAside) {
+  const Case problem = few({-3.0, 0.0, 0.0, 0.0, 0.6, 0.0, 0.0, 1.6, 0.0}, {3.0, 0.0, 0.0, 0.0, 0.6, 0.0, 0.0, 1.6, 0.0});
+  Walk walk(problem);
+  const Walked walked = walk.go(2);
+  ASSERT_EQ(walked.visits.size(), 2u);
+  EXPECT_EQ(walked.visits[0].kind, StepKind::direct);
+  EXPECT_NEAR(walked.visits[0].position[0], -0.8, 1e-12);  // 0.6, 0.8 and 1 are the sides of a triangle
+  const Point& after = walked.visits[1].position;
+  EXPECT_EQ(walked.visits[1].kind, StepKind::detour);
+  EXPECT_NEAR(after[4], 1.0, 1e-9);  // out of the way of 0
+  EXPECT_NEAR(after[7], 2.0, 1e-9);  // out of the way of 1
+  EXPECT_NEAR(after[0], 0.0, 1e-9);  // as far as 1
+  EXPECT_LE(-gap(problem, after), AwayStepper::slack);
+  EXPECT_EQ(walk.stepper().monitored(), 3.0);
+}
+
 TEST(AwayStepper, MixturesOfEightAndThirtyTwoSpheresTakeTheStepsOfTheReference) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     expect_the_steps_of_the_reference(fluid(8, 0.1, 8.0, seed), 2);
