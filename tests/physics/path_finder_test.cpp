@@ -66,7 +66,7 @@ Point two_spheres(double r, double degrees) {
 }
 
 template <class Stepper>
-PathFinder<Stepper> finder_on_two_spheres(TwoSpheres& landscape, double degrees, double step, const FinderOptions& options = {}) {
+PathFinder<Stepper> finder_on_two_spheres(TwoSpheres& landscape, double degrees, double step) {
   typename Stepper::Options stepping;
   stepping.direct_step = step;
   return {landscape.algebra(),
@@ -74,7 +74,7 @@ PathFinder<Stepper> finder_on_two_spheres(TwoSpheres& landscape, double degrees,
           landscape.layout().to_slots(two_spheres(3.0, 0.0)),
           landscape.layout().to_slots(two_spheres(3.0, degrees)),
           landscape.particles(),
-          options};
+          FinderOptions{}};
 }
 
 reference::Geodesic reference_on_two_spheres(reference::Method method, double degrees, double step) {
@@ -178,77 +178,6 @@ TYPED_TEST(PathFinderWith, TakesTheStepsOfTheReferenceInALennardJonesLiquid) {
     EXPECT_NEAR(finder.statistics().length() / expected.length, 1.0, 1e-9);
     EXPECT_NEAR(finder.statistics().participation_number() / expected.participation, 1.0, 1e-9);
   }
-}
-
-TYPED_TEST(PathFinderWith, StallsHeadOnAndStaysFinite) {
-  TwoSpheres landscape;
-  auto finder = finder_on_two_spheres<TypeParam>(landscape, 180.0, 1e-3);
-  finder.advance(1'000'000);
-  EXPECT_EQ(finder.outcome(), Outcome::stalled);
-  EXPECT_NE(finder.reason(), "");
-  EXPECT_TRUE(std::isfinite(finder.statistics().length()));
-  EXPECT_NEAR(-landscape.energy(finder.position()), 1.0, 5e-3);  // at contact
-  EXPECT_LT(finder.steps(), 10'000u);
-  const std::uint64_t steps = finder.steps();
-  finder.advance(1000);
-  EXPECT_EQ(finder.steps(), steps);  // it has ended
-}
-
-TYPED_TEST(PathFinderWith, EndsAtTheStepLimitAndNotBefore) {
-  for (const std::uint64_t limit : {1u, 100u, 2000u}) {
-    TwoSpheres landscape;
-    FinderOptions options;
-    options.max_steps = limit;
-    auto finder = finder_on_two_spheres<TypeParam>(landscape, 170.0, 1e-3, options);
-    finder.advance(limit);
-    EXPECT_EQ(finder.outcome(), Outcome::running);
-    finder.advance(1000);
-    EXPECT_EQ(finder.outcome(), Outcome::step_limit);
-    EXPECT_EQ(finder.steps(), limit);
-  }
-}
-
-TEST(PathFinder, GivesUpAfterAsManyStepsWithoutProgressAsItHasPatience) {
-  std::vector<std::uint64_t> steps;
-  for (const std::uint64_t patience : {50u, 1000u}) {
-    TwoSpheres landscape;
-    FinderOptions options;
-    options.patience = patience;
-    auto finder = finder_on_two_spheres<EscapeStepper>(landscape, 180.0, 1e-3, options);
-    finder.advance(1'000'000);
-    EXPECT_EQ(finder.outcome(), Outcome::stalled);
-    EXPECT_NE(finder.reason().find("no progress"), std::string::npos) << finder.reason();
-    steps.push_back(finder.steps());
-  }
-  EXPECT_EQ(steps[1] - steps[0], 950u);
-}
-
-TYPED_TEST(PathFinderWith, KeepsNoMoreTheLongerThePath) {
-  for (const double step : {1e-3, 1e-5}) {
-    TwoSpheres landscape;
-    FinderOptions options;
-    options.frames = 20;
-    auto finder = finder_on_two_spheres<TypeParam>(landscape, 100.0, step, options);
-    finder.advance(10'000'000);
-    ASSERT_EQ(finder.outcome(), Outcome::reached);
-    EXPECT_EQ(finder.recorder().frames().size(), 20u);
-    EXPECT_GT(finder.recorder().trace().rows(), 1000u);
-    EXPECT_LE(finder.recorder().trace().rows(), PathRecorder::trace_rows);
-  }
-}
-
-TEST(PathFinder, FramesAreEquallySpacedInTheDistanceToTheGoal) {
-  TwoSpheres landscape;
-  FinderOptions options;
-  options.frames = 9;
-  auto finder = finder_on_two_spheres<ContourStepper>(landscape, 150.0, 1e-3, options);
-  const double whole = finder.distance_left();
-  const AlignedArray goal = landscape.layout().to_slots(two_spheres(3.0, 150.0));
-  finder.advance(100'000);
-  ASSERT_EQ(finder.recorder().frames().size(), 9u);
-  for (std::size_t k = 0; k < 9; ++k)
-    EXPECT_NEAR(landscape.algebra().distance(finder.recorder().frames()[k], goal), whole * (1.0 - 0.1 * static_cast<double>(k + 1)),
-                2e-3);
 }
 
 // Two configurations of one trajectory under the model's own masses, so that the centre of mass rests.

@@ -1,0 +1,122 @@
+#include "path/path_statistics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "configuration/particle_layout.hpp"
+#include "dispatch/isa.hpp"
+#include "memory_archive.hpp"
+
+namespace lanescape {
+namespace {
+
+// Three particles, and where they are after each displacement.
+class Walk {
+ public:
+  Walk() : layout_({0, 0, 0}, 1), algebra_(kernel_table(choose_isa("auto"))), at_(layout_.dimension(), 0.0) {}
+  PathStatistics statistics() const { return {layout_.slots(), layout_.size()}; }
+  void step(PathStatistics& statistics, const std::vector<double>& by) { statistics.add_step(algebra_, at_, move(by)); }
+  void hop(PathStatistics& statistics, const std::vector<double>& by) { statistics.add_hop(algebra_, at_, move(by)); }
+  std::size_t slot(std::size_t particle) const { return layout_.slot_of(particle); }
+
+ private:
+  const AlignedArray& move(const std::vector<double>& by) {
+    to_ = layout_.to_slots(by);
+    return to_;
+  }
+
+  ParticleLayout layout_;
+  VectorAlgebra algebra_;
+  AlignedArray at_, to_;
+};
+
+// sum dr^2 = 9 + 16 = 25, sum dr^4 = 81 + 256 = 337
+const std::vector<double> uneven{0.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -4.0};
+constexpr double uneven_number = 625.0 / 337.0;
+const std::vector<double> even{1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0};
+
+TEST(PathStatistics, OfOneStepAreItsLengthAndParticipationNumber) {
+  Walk walk;
+  PathStatistics statistics = walk.statistics();
+  EXPECT_EQ(statistics.participation_number(), 0.0);
+  walk.step(statistics, uneven);
+  EXPECT_DOUBLE_EQ(statistics.length(), 5.0);
+  EXPECT_DOUBLE_EQ(statistics.last_participation_number(), uneven_number);
+  EXPECT_DOUBLE_EQ(statistics.participation_number(), uneven_number);
+}
+
+TEST(PathStatistics, TheMeanParticipationNumberIsWeightedWithLength) {
+  Walk walk;
+  PathStatistics statistics = walk.statistics();
+  walk.step(statistics, uneven);
+  walk.step(statistics, even);
+  EXPECT_DOUBLE_EQ(statistics.length(), 5.0 + std::sqrt(3.0));
+  EXPECT_DOUBLE_EQ(statistics.last_participation_number(), 3.0);
+  EXPECT_DOUBLE_EQ(statistics.participation_number(), (5.0 * uneven_number + std::sqrt(3.0) * 3.0) / (5.0 + std::sqrt(3.0)));
+}
+
+TEST(PathStatistics, ParticleLengthsAreSumsOfEachParticlesOwn) {
+  Walk walk;
+  PathStatistics statistics = walk.statistics();
+  walk.step(statistics, uneven);
+  walk.step(statistics, even);
+  walk.hop(statistics, uneven);
+  EXPECT_DOUBLE_EQ(statistics.particle_lengths()[walk.slot(0)], 7.0);
+  EXPECT_DOUBLE_EQ(statistics.particle_lengths()[walk.slot(1)], 1.0);
+  EXPECT_DOUBLE_EQ(statistics.particle_lengths()[walk.slot(2)], 9.0);
+  EXPECT_DOUBLE_EQ(std::accumulate(statistics.particle_lengths().begin(), statistics.particle_lengths().end(), 0.0), 17.0);
+}
+
+TEST(PathStatistics, HistogramsCountStepsAndNotTheHop) {
+  Walk walk;
+  PathStatistics statistics = walk.statistics();
+  walk.step(statistics, uneven);
+  walk.step(statistics, even);
+  walk.step(statistics, {0.0, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
+  walk.hop(statistics, even);
+  // n of 1, 625/337 = 1.85 and 3: up to 1, up to 2, up to 3.
+  EXPECT_EQ(statistics.participation_histogram(), (std::vector<std::uint64_t>{1, 1, 1}));
+}
+
+TEST(PathStatistics, TheAlphaTwoOfAStepIsThatOfItsDisplacements) {
+  Walk walk;
+  PathStatistics statistics = walk.statistics();
+  walk.step(statistics, uneven);
+  walk.step(statistics, {0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0});
+  walk.step(statistics, {1.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0});
+  // 1.8/n - 1 with n of 625/337, 2 and 25/17: -0.03, -0.1 and 0.22, in bins of 0.2 from -1 on.
+  std::vector<std::uint64_t> expected(PathStatistics::alpha2_bins, 0);
+  expected[4] = 2;
+  expected[6] = 1;
+  EXPECT_EQ(statistics.alpha2_histogram(), expected);
+}
+
+TEST(PathStatistics, AHopOfNoLengthChangesNothing) {
+  Walk walk;
+  PathStatistics statistics = walk.statistics();
+  walk.step(statistics, uneven);
+  walk.hop(statistics, std::vector<double>(9, 0.0));
+  EXPECT_DOUBLE_EQ(statistics.length(), 5.0);
+  EXPECT_DOUBLE_EQ(statistics.last_participation_number(), uneven_number);
+}
+
+TEST(PathStatistics, HandedOnToOthersTheyGoOnAlike) {
+  Walk walk;
+  PathStatistics whole = walk.statistics(), resumed = walk.statistics();
+  walk.step(whole, uneven);
+  testing::hand_on(whole, resumed);
+  EXPECT_EQ(resumed.last_participation_number(), whole.last_participation_number());
+  walk.step(whole, even);
+  walk.step(resumed, even);
+  EXPECT_EQ(resumed.length(), whole.length());
+  EXPECT_EQ(resumed.participation_number(), whole.participation_number());
+  EXPECT_EQ(resumed.participation_histogram(), whole.participation_histogram());
+  EXPECT_EQ(resumed.alpha2_histogram(), whole.alpha2_histogram());
+  EXPECT_EQ(resumed.particle_lengths(), whole.particle_lengths());
+}
+
+}  // namespace
+}  // namespace lanescape
