@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "dispatch/isa.hpp"
-#include "refusal.hpp"
 
 namespace lanescape {
 namespace {
@@ -48,32 +47,6 @@ TEST(Slab, LiquidIsInTheDenseStateAndVapourInTheOther) {
   }
   EXPECT_EQ(sites, 512.0 * 100.0);
   EXPECT_LT(vapour_density, 0.3 * vapour_sites + 1.0);
-}
-
-TEST(Slab, DoesNotDependOnTheNumberOfThreads) {
-  SilentMonitor monitor;
-  SlabOptions options = small_slab();
-  options.equilibration_steps = 100;
-  options.sampling_steps = 100;
-  const SlabRunResult one = run_slab(liquid_vapour(), options, choose_isa("auto"), {}, monitor);
-  options.threads = 2;
-  const SlabRunResult two = run_slab(liquid_vapour(), options, choose_isa("auto"), {}, monitor);
-  EXPECT_EQ(one.last.positions, two.last.positions);
-  EXPECT_EQ(one.profiles.probability, two.profiles.probability);
-}
-
-TEST(Slab, RefusesWhatDoesNotFit) {
-  using testing::refusal;
-  SilentMonitor monitor;
-  const auto refused = [&](auto change) {
-    SlabOptions options = small_slab();
-    change(options);
-    return refusal([&] { run_slab(liquid_vapour(), options, choose_isa("auto"), {}, monitor); });
-  };
-  EXPECT_NE(refused([](SlabOptions& o) { o.particles = 5000; }).find("do not fit"), std::string::npos);
-  EXPECT_NE(refused([](SlabOptions& o) { o.particles = 0; }).find("particles"), std::string::npos);
-  EXPECT_NE(refused([](SlabOptions& o) { o.interval = 0; }).find("interval"), std::string::npos);
-  EXPECT_NE(refused([](SlabOptions& o) { o.temperature = -1.0; }).find("temperature"), std::string::npos);
 }
 
 }  // namespace

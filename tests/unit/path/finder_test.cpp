@@ -45,7 +45,7 @@ using Steppers = ::testing::Types<ContourStepper, EscapeStepper>;
 struct StepperName {
   template <class Stepper>
   static std::string GetName(int) {
-    return Stepper::detour_name;
+    return std::is_same_v<Stepper, ContourStepper> ? "contour" : "escape";
   }
 };
 TYPED_TEST_SUITE(PathFinderWith, Steppers, StepperName);

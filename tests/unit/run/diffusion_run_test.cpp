@@ -1,0 +1,117 @@
+#include "run/diffusion_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "configuration/lattice.hpp"
+#include "stopping_monitor.hpp"
+#include "test_files.hpp"
+
+namespace lanescape {
+namespace {
+
+using testing::refusal;
+
+// Records enough for a look at the monitor in the middle of each trajectory, and one at its end.
+constexpr std::uint64_t records = 2000;
+
+struct Soft {
+  Model model = kob_andersen();
+  Configuration start = fcc_start(kob_andersen(), 16, 0.8, 1);
+  DiffusionRunOptions options;
+
+  Soft() {
+    options.window = {0.002, 100, records};
+    options.trajectories = 2;
+    options.between = 100;
+    EndPointOptions& before = options.equilibration;
+    before.time_step = 0.002;
+    before.distance = 1.0;  // is not looked at
+    before.melt_steps = before.cooling_steps = before.settle_steps = before.check_steps = 250;
+    before.check_tolerance = 100.0;
+  }
+};
+
+struct Hard {
+  Model model = hard_sphere_binary();
+  Configuration start = hard_sphere_start(hard_sphere_binary(), 16, 0.2, Arrangement::random, 1);
+  DiffusionRunOptions options;
+
+  Hard() {
+    options.window = {0.001, 100, records};
+    options.trajectories = 2;
+    options.between = 100;
+    options.equilibration_collisions = 2000;
+  }
+};
+
+template <class System>
+DiffusionRunResult run(const System& system, const CheckpointOptions& checkpoint, RunMonitor&& monitor = SilentMonitor()) {
+  return run_diffusion(system.model, system.start, system.options, choose_isa("auto"), checkpoint, monitor);
+}
+
+template <class System>
+class DiffusionRunOf : public ::testing::Test {};
+using Systems = ::testing::Types<Soft, Hard>;
+TYPED_TEST_SUITE(DiffusionRunOf, Systems);
+
+TYPED_TEST(DiffusionRunOf, InterruptedAndResumedEndsWithTheSameBits) {
+  const TypeParam system;
+  const DiffusionRunResult whole = run(system, {});
+  EXPECT_FALSE(whole.interrupted);
+  EXPECT_TRUE(whole.equilibrated);
+  ASSERT_EQ(whole.diffusion.trajectories(), 2u);
+  EXPECT_GT(whole.diffusion.vacf_diffusion(0).value, 0.0);
+  // After equilibration, in the first trajectory, in the second.
+  for (const int looks : {1, 2, 4}) {
+    const testing::TemporaryFolder folder;
+    const DiffusionRunResult begun = run(system, {folder.path(), false}, testing::StoppingMonitor(looks));
+    EXPECT_TRUE(begun.interrupted) << looks;
+    EXPECT_LT(begun.diffusion.trajectories(), 2u);
+    const DiffusionRunResult resumed = run(system, {folder.path(), true});
+    ASSERT_EQ(resumed.diffusion.trajectories(), 2u);
+    for (std::size_t s = 0; s < 2; ++s) {
+      EXPECT_EQ(resumed.diffusion.vacf_diffusion(s).value, whole.diffusion.vacf_diffusion(s).value);
+      EXPECT_EQ(resumed.diffusion.msd_diffusion(s).error, whole.diffusion.msd_diffusion(s).error);
+    }
+    EXPECT_EQ(resumed.compressibility, whole.compressibility);
+    EXPECT_EQ(resumed.pressure, whole.pressure);
+    EXPECT_EQ(resumed.temperature, whole.temperature);
+  }
+}
+
+TEST(DiffusionRun, RefusesWhatCannotBe) {
+  const auto refused = [](auto change) {
+    Soft system;
+    change(system);
+    return refusal([&] { run(system, {}); });
+  };
+  EXPECT_EQ(refused([](Soft& s) { s.options.trajectories = 0; }), "number of trajectories must be at least 1");
+  EXPECT_EQ(refused([](Soft& s) { s.options.window.interval = 0.003; }),
+            "record interval 0.003 is not allowed: a multiple of the time step 0.002 is needed");
+  EXPECT_EQ(refused([](Soft& s) { s.options.window.records = 100; }),
+            "100 records are too few for a window of 100: more than that");
+  EXPECT_EQ(refused([](Soft& s) {
+              std::copy_n(s.start.positions.begin(), 3, s.start.positions.begin() + 3);
+            }).rfind("particles 0 and 1 overlap", 0),
+            0u);
+  EXPECT_EQ(refused([](Soft& s) { s.model = liquid_vapour(); }).rfind("diffusion of model ucg is not there yet", 0), 0u);
+}
+
+// [G] table 4.3, and 4.5 for two species.
+TEST(DiffusionRun, HasTheParametersOfTheSource) {
+  const DiffusionRunOptions one = source_diffusion_options(1, 0.10), two = source_diffusion_options(2, 0.50);
+  EXPECT_EQ(one.window.interval, 5e-4);
+  EXPECT_EQ(one.window.lags, 30'000u);
+  EXPECT_EQ(one.window.origins(), 100'000u);
+  EXPECT_EQ(one.trajectories, 5u);
+  EXPECT_EQ(two.window.interval, 2e-5);
+  EXPECT_EQ(two.window.lags, 100'000u);
+  EXPECT_EQ(two.window.origins(), 200'000u);
+  EXPECT_EQ(two.trajectories, 10u);
+}
+
+}  // namespace
+}  // namespace lanescape

@@ -1,0 +1,84 @@
+#include "run/run_loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+
+#include "core/error.hpp"
+#include "stopping_monitor.hpp"
+#include "test_files.hpp"
+
+namespace lanescape {
+namespace {
+
+// Counts to `goal`, one per chunk. Only even counts can be saved, and every fourth is due.
+class Counting final : public ResumableWork {
+ public:
+  explicit Counting(std::uint64_t goal) : goal_(goal) {}
+  bool finished() const override { return count_ == goal_; }
+  void advance(RunMonitor&) override { ++count_, ++chunks_; }
+  void exchange(Archive& archive) override { archive.field("count", count_); }
+  bool saveable() const override { return count_ % 2 == 0; }
+  bool save_due() const override { return count_ % 4 == 0; }
+
+  std::uint64_t count() const { return count_; }
+  std::uint64_t chunks() const { return chunks_; }
+
+ private:
+  std::uint64_t goal_, count_ = 0, chunks_ = 0;
+};
+
+TEST(RunLoop, DoesTheWorkToItsEndAndKeepsItsState) {
+  const testing::TemporaryFolder folder;
+  SilentMonitor silent;
+  Counting work(10);
+  EXPECT_FALSE(run_to_end(work, "count.h5", {folder.path(), false}, silent));
+  EXPECT_EQ(work.count(), 10U);
+  EXPECT_EQ(folder.entries(), 1U);
+  Counting again(10);
+  EXPECT_FALSE(run_to_end(again, "count.h5", {folder.path(), true}, silent));
+  EXPECT_EQ(again.count(), 10U);
+  EXPECT_EQ(again.chunks(), 0U);
+}
+
+TEST(RunLoop, ContinuesFromWhereItWasInterrupted) {
+  const testing::TemporaryFolder folder;
+  testing::StoppingMonitor stopping(6);
+  Counting begun(10);
+  EXPECT_TRUE(run_to_end(begun, "count.h5", {folder.path(), false}, stopping));
+  EXPECT_EQ(begun.count(), 6U);
+  SilentMonitor silent;
+  Counting resumed(10);
+  EXPECT_FALSE(run_to_end(resumed, "count.h5", {folder.path(), true}, silent));
+  EXPECT_EQ(resumed.count(), 10U);
+  EXPECT_EQ(resumed.chunks(), 4U);
+  EXPECT_GE(resumed.clock().seconds(), begun.clock().seconds());
+}
+
+TEST(RunLoop, KeepsTheLastStateThatCanBeSaved) {
+  const testing::TemporaryFolder folder;
+  testing::StoppingMonitor stopping(7);
+  Counting begun(10);
+  EXPECT_TRUE(run_to_end(begun, "count.h5", {folder.path(), false}, stopping));
+  EXPECT_EQ(begun.count(), 7U);
+  SilentMonitor silent;
+  Counting resumed(10);
+  run_to_end(resumed, "count.h5", {folder.path(), true}, silent);
+  EXPECT_EQ(resumed.chunks(), 6U);  // from 4 on
+}
+
+TEST(RunLoop, StartsAnewUnlessAskedToResumeAndKeepsNothingWithoutAFolder) {
+  const testing::TemporaryFolder folder;
+  SilentMonitor silent;
+  Counting first(4), second(4), third(4);
+  run_to_end(first, "count.h5", {folder.path(), false}, silent);
+  run_to_end(second, "count.h5", {folder.path(), false}, silent);
+  EXPECT_EQ(second.chunks(), 4U);
+  run_to_end(third, "count.h5", {}, silent);
+  EXPECT_EQ(third.chunks(), 4U);
+  EXPECT_EQ(folder.entries(), 1U);
+}
+
+}  // namespace
+}  // namespace lanescape

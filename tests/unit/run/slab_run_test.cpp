@@ -1,0 +1,63 @@
+#include "run/slab_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+
+#include "dispatch/isa.hpp"
+#include "refusal.hpp"
+#include "stopping_monitor.hpp"
+
+namespace lanescape {
+namespace {
+
+SlabOptions small_slab() {
+  SlabOptions options;
+  options.particles = 512;
+  options.width = 8.0;
+  options.length = 24.0;
+  options.equilibration_steps = 100;
+  options.sampling_steps = 100;
+  options.bins = 24;
+  return options;
+}
+
+TEST(SlabRun, DoesNotDependOnTheNumberOfThreads) {
+  SilentMonitor monitor;
+  SlabOptions options = small_slab();
+  options.equilibration_steps = options.sampling_steps = 20;  // two threads on one busy core take long
+  const SlabRunResult one = run_slab(liquid_vapour(), options, choose_isa("auto"), {}, monitor);
+  options.threads = 2;
+  const SlabRunResult two = run_slab(liquid_vapour(), options, choose_isa("auto"), {}, monitor);
+  EXPECT_EQ(one.last.positions, two.last.positions);
+  EXPECT_EQ(one.profiles.probability, two.profiles.probability);
+}
+
+TEST(SlabRun, RefusesWhatDoesNotFit) {
+  using testing::refusal;
+  SilentMonitor monitor;
+  const auto refused = [&](auto change) {
+    SlabOptions options = small_slab();
+    change(options);
+    return refusal([&] { run_slab(liquid_vapour(), options, choose_isa("auto"), {}, monitor); });
+  };
+  EXPECT_NE(refused([](SlabOptions& o) { o.particles = 5000; }).find("do not fit"), std::string::npos);
+  EXPECT_NE(refused([](SlabOptions& o) { o.particles = 0; }).find("particles"), std::string::npos);
+  EXPECT_NE(refused([](SlabOptions& o) { o.interval = 0; }).find("interval"), std::string::npos);
+  EXPECT_NE(refused([](SlabOptions& o) { o.temperature = -1.0; }).find("temperature"), std::string::npos);
+}
+
+TEST(SlabRun, EndsEarlyWithTheSamplesSoFarWhenAskedTo) {
+  SlabOptions options = small_slab();
+  options.sampling_steps = 200;
+  for (const auto& [looks, samples] : {std::pair{1, 0U}, {2, 5U}}) {  // a look every hundred steps, a sample every twenty
+    testing::StoppingMonitor monitor(looks);
+    const SlabRunResult begun = run_slab(liquid_vapour(), options, choose_isa("auto"), {}, monitor);
+    EXPECT_TRUE(begun.interrupted);
+    EXPECT_EQ(begun.profiles.samples, samples);
+  }
+}
+
+}  // namespace
+}  // namespace lanescape
