@@ -8,7 +8,7 @@
 
 namespace lanescape {
 
-// Where R is allowed or not, nothing in between: all that a stepper sees of a hard system. As with SoftLandscape one call is a
+// Whether R is allowed: all that a stepper sees of a hard system. As with SoftLandscape one call is a
 // whole evaluation, R is all x, all y, all z, and each thread has its own.
 class HardLandscape {
  public:
@@ -26,7 +26,7 @@ class HardLandscape {
   // HardSphereList::avoidance_trial().
   virtual std::size_t avoidance_trial(AlignedArray& trial, const AlignedArray& position, AlignedArray& sum, AlignedArray& force,
                                       double step) const = 0;
-  // How deep spheres overlap, at least 0 [sigma]; from scratch, and slower.
+  // The deepest overlap, at least 0 [sigma]; over all pairs, and slower.
   virtual double violation(const AlignedArray& position) = 0;
 };
 

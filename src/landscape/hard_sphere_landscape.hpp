@@ -13,7 +13,7 @@ namespace lanescape {
 // Hard spheres in a fixed box, R in the layout's order.
 class HardSphereLandscape final : public HardLandscape {
  public:
-  // Of the smallest diameter; measured (docs/PERFORMANCE.md): shorter lists are made anew too often, longer ones have too
+  // Of the smallest diameter; measured (docs/PERFORMANCE.md): shorter lists are rebuilt too often, longer ones have too
   // many pairs.
   static constexpr double default_skin = 0.01;
 

@@ -8,9 +8,9 @@
 
 namespace lanescape {
 
-// A potential-energy landscape V(R): all that a stepper sees of a soft system. One call is microseconds, so that the virtual
-// dispatch costs nothing; it is never per pair. Not thread-safe: each thread has its own. R is an array of dimension()
-// doubles in three equal parts, all x, all y, all z; entries that belong to no particle stay zero.
+// A potential-energy landscape V(R): all that a stepper sees of a soft system. One call takes microseconds, so that its virtual
+// dispatch costs nothing; there is none per pair. Not thread-safe: each thread has its own. R is an array of dimension() doubles in
+// three equal parts, all x, all y, all z; entries that belong to no particle stay zero.
 class SoftLandscape {
  public:
   virtual ~SoftLandscape() = default;
@@ -23,11 +23,11 @@ class SoftLandscape {
   virtual double energy(const AlignedArray& position) = 0;
   // V(R) and grad V(R) [epsilon/sigma].
   virtual double energy_and_gradient(const AlignedArray& position, AlignedArray& gradient) = 0;
-  // The same grad V(R), to the bit, for who does not need V.
+  // The same grad V(R), to the bit, without V.
   virtual void gradient(const AlignedArray& position, AlignedArray& gradient) { energy_and_gradient(position, gradient); }
 
-  // What else than R the bits of V depend on, such as where a neighbour list was made. Part of the state of whatever moves on this
-  // landscape.
+  // What the bits of V depend on besides R, such as the positions at which a neighbour list was built. It is part of the state of
+  // whatever moves on this landscape.
   virtual void exchange(Archive&) {}
 };
 

@@ -11,7 +11,7 @@
 
 namespace lanescape {
 
-// What is summed along a path, in constant memory.
+// Sums along a path, in constant memory.
 class PathStatistics {
  public:
   // n/N has a bin for each whole n, of width 1 up to n itself; alpha_2 starts at -1, its last bin is open.

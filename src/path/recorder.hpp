@@ -9,8 +9,8 @@
 
 namespace lanescape {
 
-// Keeps what is worth drawing of a path, in bounded memory: configurations equally spaced in the distance to the goal, and a
-// trace of numbers over steps.
+// Records a path for figures, in bounded memory: configurations equally spaced in the distance to the goal, and a trace of numbers
+// over steps.
 class PathRecorder {
  public:
   // Rows of the trace: direct_steps counts from the start of the path, participation is the step's own n.
@@ -20,7 +20,7 @@ class PathRecorder {
   // `frames` configurations besides the two ends.
   PathRecorder(std::size_t frames, double whole_distance) : frames_wanted_(frames), whole_distance_(whole_distance) {}
 
-  // A configuration if the path has come near enough for the next one.
+  // Keeps the configuration if the path has come near enough to the goal for the next one.
   void keep_frame(const AlignedArray& position, double distance);
   DecimatedTrace& trace() { return trace_; }
   const DecimatedTrace& trace() const { return trace_; }

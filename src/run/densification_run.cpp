@@ -14,9 +14,9 @@
 namespace lanescape {
 namespace {
 
-// Steps between insertions: fewer would make the neighbour list anew more often than it wears out by itself.
+// Fewer steps between insertions would rebuild the neighbour list more often than motion alone does.
 constexpr std::uint64_t least_steps_per_event = 20;
-// Around one particle the fluid is uniform again at this distance [sigma].
+// At this distance from a particle the fluid is uniform [sigma].
 constexpr double correlation_length = 3.0;
 constexpr std::size_t row_numbers = 9;
 
@@ -33,7 +33,7 @@ struct RowSums {
   }
 };
 
-// A growing fluid, a row of the record at a time.
+// A fluid whose density grows, one row of the record per chunk.
 class Densification final : public ResumableWork {
  public:
   Densification(const PairModel& model, const FluidState& start, const DensificationOptions& options, Isa isa)

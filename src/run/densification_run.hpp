@@ -13,20 +13,20 @@
 namespace lanescape {
 
 // A periodic fluid whose density grows by insertion at constant energy per particle, with no thermostat ([U] IV.A, figure 3):
-// places have the fluid's mean excess energy per particle, velocities are Maxwell's at its temperature.
+// particles are inserted at the fluid's mean excess energy per particle, with Maxwellian velocities at its temperature.
 struct DensificationOptions {
-  double temperature = 2.5;                    // of the start, put right while it equilibrates
+  double temperature = 2.5;                    // of the start; a thermostat holds it during equilibration
   std::uint64_t equilibration_steps = 10'000;  // before anything is inserted
   double final_density = 0.8;                  // [sigma^-3]
   double rate = 0.005;                         // d rho/dt
   double time_step = 0.002;                    // [sigma sqrt(m/epsilon)]
   std::uint64_t rows = 40;                     // of the record, equal steps of density
-  InsertionOptions insertion;                  // its target is not looked at
+  InsertionOptions insertion;                  // its target is ignored
   int species = 0;                             // of what is inserted
   int threads = 1;
 
-  // Throws Error(bad_input) naming what is out of range; a rate above one insertion per volume of (3 sigma)^3 and collision time
-  // 1/(4 rho sqrt(pi T)) is.
+  // Throws Error(bad_input) naming the option that is out of range. The rate is at most one insertion per volume (3 sigma)^3 and
+  // collision time 1/(4 rho sqrt(pi T)).
   void check(const FluidState& start) const;
 };
 
@@ -36,8 +36,8 @@ struct DensificationRow {
   double excess_energy = 0.0, energy = 0.0;  // per particle [epsilon]
   double inserted_energy = 0.0;              // per inserted particle, the kinetic part included [epsilon]
   double evaluations = 0.0;                  // per insertion
-  // What the total energy differs by from where it started and all that insertions brought, per particle: the integrator's error
-  // and that of the truncation.
+  // Total energy less its start value and less what insertions brought, per particle: the errors of the integrator and of the
+  // truncation.
   double drift = 0.0;
 };
 
@@ -50,7 +50,7 @@ struct DensificationResult {
   double seconds = 0.0;
 };
 
-// `start`: a lattice will do. Ends early at the first insertion that finds no place.
+// `start` may be a lattice. Ends early at the first insertion that finds no position.
 DensificationResult run_densification(const PairModel& model, const FluidState& start, const DensificationOptions& options, Isa isa,
                                       const CheckpointOptions& checkpoint, RunMonitor& monitor);
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t records_per_report = 1000;
 
-// Hard spheres, brought to equilibrium and on from one trajectory to the next.
+// Trajectories of hard spheres, equilibrated first.
 class HardSource {
  public:
   static constexpr std::uint64_t collisions_per_unit = 100'000;
@@ -28,8 +28,8 @@ class HardSource {
     dynamics_.draw_velocities(options.seed);
   }
 
-  // One unit of equilibration; the part that is done. Ends, as trajectories do, resynchronised: only such a state goes on with the
-  // same bits when it is read.
+  // Runs one unit of equilibration and returns the share done so far. Resynchronises at its end, as trajectories do: only such a
+  // state continues with the same bits after it is read.
   double equilibrate() {
     const std::uint64_t wanted = options_->equilibration_collisions;
     const std::uint64_t until = std::min(wanted, dynamics_.collisions() + collisions_per_unit);
@@ -75,7 +75,7 @@ class HardSource {
   std::uint64_t recorded_ = 0;
 };
 
-// Soft particles: the end-point protocol up to its first pair, then plain molecular dynamics.
+// Trajectories of soft particles: the end-point protocol up to its first pair, then plain molecular dynamics.
 class SoftSource {
  public:
   static constexpr std::uint64_t records_per_virial = 10;

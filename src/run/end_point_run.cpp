@@ -102,15 +102,15 @@ class SoftEndPointWork final : public EndPointWork<EndPointGenerator> {
  private:
   static constexpr std::uint64_t chunks_per_checkpoint = 100;
 
-  // A sample of a large system says as much as many of a small one, and takes as long as a hundred steps.
+  // One sample of a large system is worth many of a small one, and costs as much as a hundred steps.
   std::uint64_t rdf_interval() const { return 1000 * std::max<std::uint64_t>(1, particles_ / 5000); }
 
   std::uint64_t chunk_;  // steps, about 10 ms on one core
   std::size_t particles_;
 };
 
-// A chunk of hard spheres ends at a resynchronisation, some hundredths of a second after the last: only such a state goes on with
-// the same bits.
+// A chunk of hard spheres ends at a resynchronisation, a few hundredths of a second after the last one. Only such a state continues
+// with the same bits.
 class HardEndPointWork final : public EndPointWork<HardEndPointGenerator> {
  public:
   HardEndPointWork(const HardSphereModel& model, const ParticleLayout& layout, const Configuration& start,
@@ -131,7 +131,7 @@ class HardEndPointWork final : public EndPointWork<HardEndPointGenerator> {
  protected:
   void step() override {
     generator_.step();
-    // A sample takes N^2/2 distances, of a large system about 1000 N; a collision some hundred.
+    // A sample costs N^2/2 distances, in large systems about 1000 N; a collision costs about a hundred.
     const std::uint64_t n = layout_->size(), interval = std::max<std::uint64_t>(2000, std::min(n * n / 4, 1000 * n));
     if (generator_.equilibrated() && generator_.dynamics().collisions() % interval == 0)
       radial_distribution_.add(layout_->to_slots(generator_.dynamics().positions()));
@@ -150,7 +150,7 @@ class HardEndPointWork final : public EndPointWork<HardEndPointGenerator> {
   }
 
  private:
-  static constexpr std::uint64_t resyncs_per_checkpoint = 50;  // about 1 s, large systems some
+  static constexpr std::uint64_t resyncs_per_checkpoint = 50;  // about 1 s; several seconds in large systems
 
   const ParticleLayout* layout_;
   double virial_ = 0.0, time_ = 0.0;  // at the end of the last chunk

@@ -28,7 +28,7 @@ struct ScanRows {
   std::vector<double> states, costs, holes, errors;
 };
 
-// One way to look for places, over all configurations of a state.
+// One combination of method, tolerance and step, over all configurations of a state.
 struct Combination {
   InsertionOptions options;
   InsertionHistory history;
@@ -74,7 +74,7 @@ class StateScan {
         }
   }
 
-  // False if it was stopped on the way.
+  // False if the monitor stopped it.
   bool run(ScanRows& out, std::uint64_t states_done, RunMonitor& monitor) {
     MovingFluid fluid(*model_, fluid_on_lattice(*model_, options_->particles, at_.density, at_.temperature, options_->seed),
                       options_->time_step, isa_, options_->threads);
@@ -123,7 +123,7 @@ class StateScan {
     trace_errors(field, excess, out);
   }
 
-  // Around places of the mean excess energy, as [U] does.
+  // Holes around positions of the mean excess energy, as in [U].
   void look_at_holes(const ProbeField& field, double excess) {
     if (options_->holes == 0) return;
     InsertionOptions with = options_->insertion;
@@ -135,7 +135,7 @@ class StateScan {
 
   void add_holes(ScanRows& out, std::size_t which) const {
     const std::vector<Hole>& holes = holes_[which];
-    // A few holes are long tubes, whose fits would rule any mean.
+    // A few holes are long tubes, whose fits would dominate a mean.
     const auto median_of = [&](double Hole::* member) {
       std::vector<double> values;
       for (const Hole& hole : holes) values.push_back(hole.*member);
@@ -160,7 +160,7 @@ class StateScan {
                                errors.push_back(std::abs(energy - excess) / std::abs(excess));
                              });
       search.run();
-      // Of the trial that ended well.
+      // Errors of the successful trial.
       for (std::size_t j = 0; j + 1 < errors.size() && search.result().found; ++j)
         out.errors.insert(out.errors.end(), {at_.density, errors[j], errors[j + 1]});
     }

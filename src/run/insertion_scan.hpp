@@ -12,15 +12,15 @@
 
 namespace lanescape {
 
-// What the places have that a scan looks for.
+// The energy that the positions of a scan are to have.
 enum class ScanTarget {
-  mean_excess_energy,  // per particle of the configuration at hand
-  chemical_potential,  // the excess part, from the scan's own probes of the configuration at hand
+  mean_excess_energy,  // per particle, of each configuration
+  chemical_potential,  // the excess part, from the scan's own probes of each configuration
   number,              // InsertionOptions::target
 };
 
-// What insertion costs in fluids of several densities and temperatures: places are looked for in configurations that stay as they
-// are, by every combination of method, tolerance and largest step.
+// The cost of insertion in fluids of several densities and temperatures. Every combination of method, tolerance and largest step
+// searches the same configurations, which do not change.
 struct InsertionScanOptions {
   struct State {
     double density, temperature;
@@ -28,11 +28,11 @@ struct InsertionScanOptions {
   std::vector<State> states;
   std::vector<InsertionMethod> methods;
   std::vector<double> tolerances;
-  std::vector<std::optional<double>> largest_steps;  // nothing: the method's default
+  std::vector<std::optional<double>> largest_steps;  // empty: the method's default
   ScanTarget target = ScanTarget::mean_excess_energy;
   InsertionOptions insertion;  // everything else
   int species = 0;
-  std::uint64_t particles = 1000, configurations = 5, count = 100;  // count: of places per configuration and combination
+  std::uint64_t particles = 1000, configurations = 5, count = 100;  // count: positions per configuration and combination
   std::uint64_t equilibration_steps = 10'000, between_steps = 2000;
   double time_step = 0.002;
   std::uint64_t widom_probes = 0;     // per configuration, for the chemical potential
@@ -47,7 +47,7 @@ struct InsertionScanOptions {
 };
 
 struct ScanCostRow {
-  double density = 0.0, temperature = 0.0;  // as asked for
+  double density = 0.0, temperature = 0.0;  // the requested ones
   InsertionMethod method = InsertionMethod::usher;
   double tolerance = 0.0, largest_step = 0.0;                                      // 0: the method's default
   double target = 0.0;                                                             // mean over configurations [epsilon]
@@ -56,7 +56,7 @@ struct ScanCostRow {
   double distance = 0.0, largest_distance = 0.0;  // [sigma]
   double error = 0.0;                             // mean
   double failures = 0.0;
-  double seconds = 0.0;  // per place
+  double seconds = 0.0;  // per position
 };
 
 struct ScanStateRow {

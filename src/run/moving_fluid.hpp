@@ -14,18 +14,18 @@
 
 namespace lanescape {
 
-// Particles with velocities in the user's order: what a fluid whose number of particles changes is between two stretches of
+// Particles with velocities in the user's order: the state of a fluid whose number of particles changes, between two stretches of
 // molecular dynamics.
 struct FluidState {
   Configuration configuration;
   std::vector<double> velocities;  // 3N [sigma / time]
 
   void add(int species, const std::array<double, 3>& position, const std::array<double, 3>& velocity);
-  // Positions and velocities; the box and, where there are several species, the species too.
+  // Positions, velocities and box; the species too if there are several.
   void exchange(Archive& archive);
 };
 
-// Molecular dynamics of a soft fluid from such a state at constant energy. Its bits depend on the state alone.
+// Molecular dynamics of a soft fluid at constant energy. Its bits depend on the initial state alone.
 class MovingFluid {
  public:
   MovingFluid(const PairModel& model, const FluidState& state, double time_step, Isa isa, int threads);
@@ -52,10 +52,10 @@ class MovingFluid {
   AlignedArray gradient_;
 };
 
-// On a lattice of this density, with Maxwellian velocities.
+// Particles on a lattice of this density, with Maxwellian velocities.
 FluidState fluid_on_lattice(const PairModel& model, std::size_t particles, double density, double temperature, std::uint64_t seed);
 
-// Runs with the temperature put right every 50 steps in the first half, and left alone in the second.
+// Rescales velocities to the temperature every 50 steps of the first half; the second half runs at constant energy.
 void equilibrate(MovingFluid& fluid, double temperature, std::uint64_t steps);
 
 }  // namespace lanescape

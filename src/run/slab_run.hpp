@@ -16,7 +16,7 @@ namespace lanescape {
 struct SlabOptions {
   std::uint64_t particles = 1200;
   double width = 10.0, length = 30.0;  // of the box, along x and y, and along z [sigma]
-  double start_density = 0.85;         // of the lattice in the middle; one much below the liquid tears [sigma^-3]
+  double start_density = 0.85;         // of the lattice in the middle; one much thinner than the liquid tears [sigma^-3]
   double temperature = 0.8, friction = 0.5, time_step = 0.005;
   std::uint64_t equilibration_steps = 20'000, sampling_steps = 20'000, interval = 20;  // steps between samples
   std::uint64_t bins = 60;

@@ -17,9 +17,9 @@ namespace lanescape {
 kernels::ContactPotential parse_contact_potential(std::string_view word);
 const char* to_string(kernels::ContactPotential potential);
 
-// Direct steps, and where spheres would overlap collision-avoidance steps ([G] Eqs. 3.16-3.33): back at R(t), every particle
-// that overlapped in a failed trial moves by the same small distance along the sum of its fictitious forces over all trials
-// so far, until none overlaps.
+// Direct steps. Where spheres would overlap, collision-avoidance steps ([G] Eqs. 3.16-3.33): from R(t), every particle that
+// overlapped in a failed trial moves by one small distance along the sum of its fictitious forces over all trials so far, until
+// none overlaps.
 class AvoidanceStepper {
  public:
   struct Options {
@@ -28,13 +28,12 @@ class AvoidanceStepper {
     kernels::ContactPotential potential = kernels::ContactPotential::harmonic;
     std::uint64_t max_trials = 10'000;  // of one avoidance step
   };
-  // Overlaps are counted in one avoidance step of so many: neighbouring ones hardly differ, and counting takes as long as half
-  // a step.
+  // Overlaps are counted in every eighth avoidance step: neighbouring steps hardly differ, and counting takes half as long as a
+  // step.
   static constexpr std::uint64_t statistics_interval = 8;
 
   AvoidanceStepper(HardLandscape& landscape, const Options& options);
 
-  // One step to an allowed point; nothing where there is none, failure() then says why. `next` is overwritten either way.
   std::optional<StepKind> step(const PathPoint& at, AlignedArray& next);
 
   double step_length() const { return options_.direct_step; }

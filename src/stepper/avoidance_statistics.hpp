@@ -20,12 +20,13 @@ class AvoidanceStatistics {
 
   AvoidanceStatistics(std::size_t slots, std::size_t particles);
 
-  // One avoidance step: the overlaps of the failed direct trial, of each further one, and how many particles moved at last.
+  // One avoidance step: the overlaps of the failed direct trial, of each further trial, and the number of particles that moved in
+  // the accepted one.
   void begin_step(const ContactPairs& overlaps);
   void add_trial(const ContactPairs& overlaps);
   void end_step(std::size_t moved);
 
-  // All of them, named.
+  // All histograms with their names.
   std::vector<StepHistogram> histograms() const;
   const std::vector<std::uint64_t>& partners() const { return partners_; }  // v
   const std::vector<std::uint64_t>& moved() const { return moved_; }        // c
@@ -44,7 +45,7 @@ class AvoidanceStatistics {
   std::array<std::size_t, 2> bounds_;
   std::vector<std::uint64_t> partners_, moved_, group_numbers_;
   std::array<std::vector<std::uint64_t>, ranges> group_sizes_;
-  // Of the step at hand: particles with overlaps, their partners in the direct trial, and a forest of groups.
+  // Of the current step: particles with overlaps, their partners in the direct trial, and a forest of groups.
   std::vector<std::int32_t> touched_, parent_, partner_count_, size_;
 };
 

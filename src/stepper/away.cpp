@@ -44,7 +44,7 @@ AwayStepper::AwayStepper(const Box& box, const ParticleLayout& layout, const std
       position_(radii.size()),
       velocity_(radii.size()),
       corrections_(32, 0) {
-  for (std::size_t i = 0; i < radii_.size(); ++i) places_.push_back(layout.slot_of(i));
+  for (std::size_t i = 0; i < radii_.size(); ++i) slots_of_.push_back(layout.slot_of(i));
   const double diameter = 2.0 * *std::max_element(radii_.begin(), radii_.end());
   room_ = 0.5 * box_.shortest() - diameter;
   // A flight takes parts in inverse proportion to the room.
@@ -88,13 +88,13 @@ void AwayStepper::exchange(Archive& archive, const AlignedArray&) {
 }
 
 void AwayStepper::read(const AlignedArray& position) {
-  for (std::size_t i = 0; i < places_.size(); ++i)
-    for (std::size_t axis = 0; axis < 3; ++axis) position_[i][axis] = position[axis * slots_ + places_[i]];
+  for (std::size_t i = 0; i < slots_of_.size(); ++i)
+    for (std::size_t axis = 0; axis < 3; ++axis) position_[i][axis] = position[axis * slots_ + slots_of_[i]];
 }
 
 void AwayStepper::write(AlignedArray& position) const {
-  for (std::size_t i = 0; i < places_.size(); ++i)
-    for (std::size_t axis = 0; axis < 3; ++axis) position[axis * slots_ + places_[i]] = position_[i][axis];
+  for (std::size_t i = 0; i < slots_of_.size(); ++i)
+    for (std::size_t axis = 0; axis < 3; ++axis) position[axis * slots_ + slots_of_[i]] = position_[i][axis];
 }
 
 // Flights cannot make an overlap deeper, away steps can.
@@ -107,7 +107,7 @@ std::optional<StepKind> AwayStepper::accept(StepKind kind, const AlignedArray& f
   }
   violation_ = violation;
   moved_ = 0;
-  for (const std::size_t s : places_)
+  for (const std::size_t s : slots_of_)
     if (from[s] != to[s] || from[slots_ + s] != to[slots_ + s] || from[2 * slots_ + s] != to[2 * slots_ + s]) ++moved_;
   return kind;
 }

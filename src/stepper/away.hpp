@@ -16,19 +16,21 @@
 
 namespace lanescape {
 
-// The older method for hard spheres ([G] 5.2), the negative control: straight flights R_f - R to the first contact, in turn with
-// away steps, in which of the two in contact one moves out of the other's way and the other advances beside it.
+// The older method for hard spheres ([G] 5.2), the negative control. Straight flights along R_f - R to the first contact alternate
+// with away steps, in which one of the two spheres in contact moves out of the other's way and the other advances beside it.
 //
-// Where [G] leaves things open, as reference/hard_geodesic:
-// - Of two in contact that one is in the other's way which lies ahead of it. Beside it, to `slack`, is out of the way, and a
-//   sphere that makes way goes on to that gap: else rounding alone would make the same two collide for ever.
-// - The sphere that makes way moves first, then one by one, in the user's order and recursively, whatever its own move runs
-//   into, spheres that have moved before included.
-// - Only the first sphere is cleared from a whole ray. The way of every later one ends where its move ends: with endless ways a
-//   short move pushes spheres far ahead aside, and from a packing fraction of 0.3 on no path is found.
+// Readings where [G] leaves things open, the same as in reference/hard_geodesic:
+// - Of two spheres in contact, the one that lies ahead of the other is in its way. A sphere is out of the way when it lies beside
+// the
+//   other with a gap of `slack`; without a gap rounding would make the same two collide for ever.
+// - The sphere that makes way moves first. Then, recursively and in the user's order, every sphere that its move runs into moves,
+//   also one that has moved before.
+// - Only the first sphere is cleared from a whole ray. For every later one the way ends where its move ends. With endless ways a
+// short
+//   move pushes away spheres far ahead, and above a packing fraction of 0.3 no path is found.
 //
-// Each pair's nearest image alone counts. A flight is made in parts so short that no other image can be met in one. O(N^2) for
-// each part, O(N) for each sphere moved.
+// Only the nearest image of each pair counts. A flight is divided into parts so short that no other image can be met. Each part
+// costs O(N^2), each moved sphere O(N).
 class AwayStepper {
  public:
   struct Options {
@@ -42,9 +44,8 @@ class AwayStepper {
   AwayStepper(const Box& box, const ParticleLayout& layout, const std::vector<double>& radii, HardLandscape& landscape,
               AlignedArray goal, const Options& options);
 
-  // One flight, or the away step that follows it; from a start in contact, which allows no flight, the away step at once. With the
-  // way free `next` is exactly the goal. Nothing where there is no step, failure() then says why. `at` is where the last step
-  // led; `next` is overwritten either way.
+  // One flight, or the away step that follows it. A start in contact allows no flight: its first step is an away step. If the way
+  // is free `next` is exactly the goal. `at` is the point of the last step.
   std::optional<StepKind> step(const PathPoint& at, AlignedArray& next);
 
   double step_length() const { return 1e-9; }                       // steps have none; the last one reaches the goal
@@ -90,8 +91,8 @@ class AwayStepper {
   double distance_to_goal(std::size_t sphere) const;
 
   Box box_;
-  std::vector<double> radii_;        // here and below in the user's order, which ties are decided by
-  std::vector<std::size_t> places_;  // slots
+  std::vector<double> radii_;  // here and below in the user's order, which ties are decided by
+  std::vector<std::size_t> slots_of_;
   std::size_t slots_;
   HardLandscape* landscape_;
   AlignedArray goal_array_;

@@ -53,7 +53,7 @@ std::optional<StepKind> ContourStepper::step(const PathPoint& at, AlignedArray& 
     const double back = -static_cast<double>(k) * options_.correction / contour->slope;
     algebra.combine(next, at.position, options_.direct_step / contour->along_length, along_, back, gradient_);
     ++evaluations_;
-    // With its gradient, since this trial is nearly always accepted and the next detour starts from here.
+    // Evaluates the gradient too: this trial is nearly always accepted, and the next detour starts from it.
     const double energy = landscape_->energy_and_gradient(next, trial_gradient_);
     if (energy <= landscape_energy_) {
       energy_ = energy;

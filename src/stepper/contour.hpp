@@ -11,7 +11,7 @@
 
 namespace lanescape {
 
-// Direct steps, and where they are forbidden a step along the contour of V at the point of retreat ([C] Eqs. 11-15).
+// Direct steps. Where one is forbidden, a step along the contour of V through the current point ([C] Eqs. 11-15).
 class ContourStepper {
  public:
   struct Options {
@@ -22,7 +22,6 @@ class ContourStepper {
 
   ContourStepper(SoftLandscape& landscape, double landscape_energy, const Options& options);
 
-  // One step to an allowed point; nothing where there is none, failure() then says why. `next` is overwritten either way.
   std::optional<StepKind> step(const PathPoint& at, AlignedArray& next);
 
   double step_length() const { return options_.direct_step; }
@@ -48,7 +47,7 @@ class ContourStepper {
   std::uint64_t evaluations_ = 0;
   std::vector<std::uint64_t> corrections_;
   std::string failure_;
-  // The gradient at the current point, if the trial that led there was evaluated with it.
+  // Whether gradient_ is that of the current point: so if the last accepted trial was evaluated with it.
   bool gradient_known_ = false;
   AlignedArray gradient_, trial_gradient_, along_;
 };

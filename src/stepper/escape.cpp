@@ -16,7 +16,7 @@ EscapeStepper::EscapeStepper(SoftLandscape& landscape, double landscape_energy, 
 std::optional<StepKind> EscapeStepper::step(const PathPoint& at, AlignedArray& next) {
   const VectorAlgebra& algebra = landscape_->algebra();
   direct_trial(algebra, at, options_.direct_step, next);
-  // With its gradient: near the boundary, where a path spends its time, the trial is nearly always forbidden.
+  // Evaluates the gradient too: near the boundary, where a path spends its time, the trial is nearly always forbidden.
   ++evaluations_;
   energy_ = landscape_->energy_and_gradient(next, gradient_);
   if (allowed(energy_)) return StepKind::direct;

@@ -11,10 +11,10 @@
 
 namespace lanescape {
 
-// Direct steps, and where they are forbidden a Newton descent from the trial back to the allowed region ([G] Eq. 3.11). Allowed
-// is V <= E_L + dV throughout, so that the descent ends.
+// Direct steps. Where one is forbidden, a Newton descent from the trial back to the allowed region ([G] Eq. 3.11). A point is
+// allowed if V <= E_L + dV, so that the descent ends.
 //
-// The method needs dV well below delta_di |grad V|: otherwise paths saw within the shell E_L ... E_L + dV and grow longer.
+// The method needs dV well below delta_di |grad V|. Otherwise paths zigzag within the shell E_L ... E_L + dV and grow longer.
 class EscapeStepper {
  public:
   struct Options {
@@ -25,7 +25,6 @@ class EscapeStepper {
 
   EscapeStepper(SoftLandscape& landscape, double landscape_energy, const Options& options);
 
-  // One step to an allowed point; nothing where there is none, failure() then says why. `next` is overwritten either way.
   std::optional<StepKind> step(const PathPoint& at, AlignedArray& next);
 
   double step_length() const { return options_.direct_step; }
@@ -48,7 +47,7 @@ class EscapeStepper {
   std::uint64_t evaluations_ = 0;
   std::vector<std::uint64_t> corrections_;
   std::string failure_;
-  // Iterations the last escape took: up to there the next one is likely to go on, so that its gradients are worth having.
+  // Iterations of the last escape. The next one likely takes as many: up to there it evaluates gradients with the energies.
   std::uint64_t expected_iterations_ = 1;
   AlignedArray gradient_;
 };

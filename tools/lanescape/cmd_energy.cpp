@@ -152,7 +152,6 @@ Subcommand add_energy(CLI::App& app) {
       .only_for({models_with_states});
   options->add("--backend", state->backend, "simd, or the scalar reference");
   state->system.add_to(*options);
-  options->at("--composition").refused("with energy: it is for starts that are made");
   state->common.add_to(*options);
   return {sub, [=](int&) { return run_energy(*state, *options); }};
 }
