@@ -5,14 +5,12 @@ import json
 import math
 import sys
 
+from unusable import Unusable
+
 TIME_UNITS = {"ns": 1.0, "us": 1e3, "ms": 1e6, "s": 1e9}  # [ns]
 TIMES = ("cpu_time", "real_time")
 ISAS = ("avx512", "avx2", "sse2", "generic")  # the widest first
 MODELS = {"kob-andersen": "Kob-Andersen", "lennard-jones": "Lennard-Jones"}
-
-
-class Unusable(Exception):
-    """What is wrong with the input, in one line."""
 
 
 class Arguments(argparse.ArgumentParser):
