@@ -1,11 +1,13 @@
-"""The figures of what `lanescape insert --scan` and `lanescape insert --densify` write; tools/plot.py says which."""
+"""Figures of `lanescape insert --scan` and `lanescape insert --densify` for tools/plot.py, which lists them."""
 
 import numpy as np
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter, NullLocator
+from matplotlib.ticker import MaxNLocator
 
-import equation_of_state
-from plot_style import BLUE, GREEN, GREY, PAIR_STYLES, PURPLE, VERMILLION, Unusable, letter, plt, read_table, save, system_parts
+from plot_densification import draw_densification
+from plot_style import (BLUE, DENSITY, GREEN, GREY, PAIR_STYLES, PURPLE, SKY_BLUE, VERMILLION, decade_ticks, legend_beside, letter,
+                        logarithmic, plt, read_table, save, shades, system_parts, title)
+from unusable import Unusable
 
 COLUMNS = {
     "densification": ("density", "temperature", "pressure", "excess_energy", "energy"),
@@ -14,23 +16,20 @@ COLUMNS = {
     "holes": ("density", "temperature", "iso_energy", "holes", "mean_radius", "semi_minor", "semi_major", "anisotropy", "eccentricity"),
     "errors": ("density", "error", "next_error"),
 }
-TEXT = ("method", "largest_step")  # the latter may be "default"
-METHOD_COLOURS = {"usher": BLUE, "usher-indirect": "#56B4E9", "usher-near": PURPLE, "screened": GREEN, "descent": VERMILLION}
+TEXT = ("method", "largest_step")  # largest_step may be "default"
+METHOD_COLOURS = {"usher": BLUE, "usher-indirect": SKY_BLUE, "usher-near": PURPLE, "screened": GREEN, "descent": VERMILLION}
 LINES, MARKERS = ("-", "--", "-.", ":", (0, (1, 3))), ("o", "s", "^", "D", "v", "P", "X")
-# Mostly they agree: the first shows beside the second, and that between the dashes of the third.
-EQUATION_STYLES = {"johnson": {"label": "Johnson et al.", "color": "#56B4E9", "linewidth": 6.0, "alpha": 0.5},
-                   "kolafa-nezbeda": {"label": "Kolafa, Nezbeda", "color": VERMILLION},
-                   "thol": {"label": "Thol et al.", "color": "black", "linestyle": (0, (3, 3))}}
-DENSITY, EVALUATIONS = r"density $\rho\;\;[\sigma^{-3}]$", "evaluations $n_f$"
-LOG_FROM = 20.0  # a greater range of values is drawn on a logarithmic axis
-LARGEST_STEPS_FROM = 3
-TEMPERATURE_PANELS = 3
+EVALUATIONS = "evaluations $n_f$"
+LOG_FROM = 20.0  # largest over smallest value: above it the axis is logarithmic
+LARGEST_STEPS_FROM = 3  # fewer largest steps get no figure
+TEMPERATURE_PANELS = 3  # at most
+# Column of holes.csv, name, marker and line.
+HOLE_SIZES = (("mean_radius", "mean radius", "o", "-"), ("semi_minor", "semi-minor axis", "v", "--"),
+              ("semi_major", "semi-major axis", "^", ":"))
 
-
-# ---- reading
 
 def read_insertion(folder):
-    """The tables that are there, by name; what is not a finite number in them is nan."""
+    """The tables that the folder has, by name. Values that are not finite are nan."""
     tables = {}
     for name, columns in COLUMNS.items():
         file = folder / f"{name}.csv"
@@ -48,7 +47,7 @@ def read_insertion(folder):
 
 
 def step_size(text, density, file="largest step"):
-    """A largest step in sigma, the default included."""
+    """The largest step [sigma] that a word of the table stands for; the default depends on the density."""
     try:
         step = 0.1 * density**-1.5 if text == "default" else float(text)
     except ValueError:
@@ -59,13 +58,12 @@ def step_size(text, density, file="largest step"):
 
 
 def rows_where(table, chosen):
+    """The rows that a mask or an array of indices selects."""
     return {name: values[chosen] for name, values in table.items()}
 
 
-# ---- axes
-
 def spread(axis, values):
-    """A logarithmic axis for values over more than LOG_FROM, labelled at 1, 2 and 5."""
+    """A logarithmic axis if the values span more than a factor LOG_FROM; otherwise a linear one from 0."""
     values = np.concatenate([np.ravel(v) for v in values])
     values = values[values > 0.0]
     if len(values) and values.max() > LOG_FROM * values.min():
@@ -74,86 +72,22 @@ def spread(axis, values):
     axis.axes.set_ylim(bottom=0.0)
 
 
-def logarithmic(axis, between=True):
-    (axis.axes.set_xscale if axis.axis_name == "x" else axis.axes.set_yscale)("log")
-    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if between else (1.0,), numticks=15))
-    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axis.set_minor_locator(NullLocator())
-    axis.set_minor_formatter(NullFormatter())
+def few_ticks(axis):
+    axis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10]))
 
 
-def legend_beside(axes, handles):
-    axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.02, 1.0), borderaxespad=0.0)
-
-
-def shades(count):
-    """Colours of ordered values, dark to light."""
-    return [plt.get_cmap("viridis")(x) for x in np.linspace(0.0, 0.85, max(2, count))][:count]
+def above_zero(values):
+    """The values, with nan where a logarithmic axis has no place for them."""
+    return np.where(values > 0.0, values, np.nan)
 
 
 def common(label, values):
-    """A part of a title where all values are the same, else nothing."""
+    """A part of a title: the value that all rows share; empty if they differ."""
     return [f"${label}={values[0]:g}$"] if len(set(values)) == 1 else []
 
 
-def title(figure, parts, above=0.42):
-    """So many inches above the panels."""
-    figure.suptitle(",  ".join(parts), y=figure.subplotpars.top + above / figure.get_figheight(), va="bottom", fontsize=15)
-
-
-# ---- growth at constant energy
-
-def processes(table, run):
-    """Equations of state at constant energy from the first row on, for fluids that they are of: without a cutoff, or corrected for it."""
-    if run.get("model") != "lennard-jones" or run.get("model-file") or run.get("truncation") != "tail":
-        return {}
-    density, lines = table["density"], {}
-    along = np.linspace(density[0], density[-1], 60)
-    for name in equation_of_state.EQUATIONS:
-        try:
-            equation = equation_of_state.load(name)
-            lines[name] = equation_of_state.constant_energy_process(equation, density[0], table["temperature"][0], along)
-        except OSError as error:
-            raise Unusable(f"{error.filename}: {error.strerror}") from error
-        except equation_of_state.Unusable:
-            continue  # where it says nothing
-    return lines
-
-
-def draw_densification(folder, table, system, run):
-    if len(table["density"]) == 0:
-        return
-    lines = processes(table, run)
-    figure, panels = plt.subplots(2, 2, sharex=True, figsize=(11.5, 8.0), gridspec_kw={"hspace": 0.22, "wspace": 0.26})
-    quantities = (("energy", None, r"$e\;\;[\epsilon]$", "energy per particle"),
-                  ("pressure", "pressure", r"$P\;\;[\epsilon\,\sigma^{-3}]$", "pressure"),
-                  ("temperature", "temperature", r"$T\;\;[\epsilon/k_\mathrm{B}]$", "temperature"),
-                  ("excess_energy", "e_ex", r"$e^\mathrm{ex}\;\;[\epsilon]$", "excess energy per particle"))
-    for axes, name, (key, line, label, text) in zip(panels.flat, "abcd", quantities):
-        for equation, process in lines.items():
-            if line:
-                axes.plot(process["density"], process[line], **EQUATION_STYLES[equation])
-        axes.plot(table["density"], table[key], "o", color="black", markersize=6, markerfacecolor="white", markeredgewidth=1.5,
-                  label="measured")
-        axes.set_ylabel(label)
-        letter(axes, f"({name}) {text}")
-    start = table["energy"][0]
-    if np.isfinite(start):
-        panels[0, 0].axhline(start, color=GREY, linestyle="--", zorder=0)
-        letter(panels[0, 0], f"(a) energy per particle, at first {start:.4g}".replace("-", "\u2212"))
-    for axes in panels[1]:
-        axes.set_xlabel(DENSITY)
-    figure.align_ylabels(panels)
-    title(figure, [*system, "growth at constant energy"], 0.8 if lines else 0.42)
-    if lines:
-        figure.legend(*panels[0, 1].get_legend_handles_labels(), loc="upper center", bbox_to_anchor=(0.5, 0.97), ncol=4)
-    save(figure, folder / "densification.png")
-
-
-# ---- scans
-
 def one_per_density(table):
-    """Which rows are of the one temperature that stands for their density: of several that with most densities."""
+    """A mask that keeps one temperature at each density: the one that occurs at most densities."""
     densities, of = {}, {}
     for density, temperature in zip(table["density"], table["temperature"]):
         densities.setdefault(temperature, set()).add(density)
@@ -163,14 +97,14 @@ def one_per_density(table):
 
 
 def with_one_step(table):
-    """The rows with the default largest step, or else with the first that is there, and what a title says of it."""
+    """The rows with the default largest step, or else with the first one in the table; and a part of a title that names it."""
     steps = table["largest_step"]
     step = "default" if "default" in steps else steps[0]
     return rows_where(table, steps == step), [] if step == "default" else [rf"$\Delta s_\mathrm{{max}}={float(step):g}\,\sigma$"]
 
 
 class Combinations:
-    """Colours by method, lines and markers by tolerance."""
+    """The methods and tolerances of a scan: colours by method, lines and markers by tolerance."""
 
     def __init__(self, table):
         self.methods, self.tolerances = list(dict.fromkeys(table["method"])), sorted(set(table["tolerance"]), reverse=True)
@@ -192,7 +126,7 @@ class Combinations:
         return handles
 
     def lines(self, table, along):
-        """(style, rows sorted along a column) of each combination that is there."""
+        """(style, rows sorted by the column `along`) of each combination that has rows."""
         for method in self.methods:
             for tolerance in self.tolerances:
                 rows = rows_where(table, (table["method"] == method) & (table["tolerance"] == tolerance))
@@ -201,26 +135,34 @@ class Combinations:
                     yield self.style(method, tolerance), rows_where(rows, order)
 
 
+def evaluation_panels(count, hspace, **shared):
+    """A figure with `count` panels on one axis of evaluations, at most two side by side."""
+    columns = min(2, count)
+    rows = -(-count // columns)
+    figure, panels = plt.subplots(rows, columns, squeeze=False, sharey=True, figsize=((8.0, 12.0)[columns - 1], 1.0 + 4.5 * rows),
+                                  gridspec_kw={"wspace": 0.1, "hspace": hspace}, **shared)
+    for axes in list(panels.flat)[count:]:
+        axes.set_visible(False)
+    for row in panels:
+        row[0].set_ylabel(EVALUATIONS)
+    return figure, panels
+
+
 def draw_evaluations(axes, combinations, table, along):
+    """Evaluations with their errors against a column, a line for each combination."""
     for style, rows in combinations.lines(table, along):
         axes.errorbar(rows[along], above_zero(rows["evaluations"]), rows["evaluations_error"], capsize=3, **style)
     axes.margins(x=0.08)
-    axes.xaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10]))
-
-
-def above_zero(values):
-    return np.where(values > 0.0, values, np.nan)
+    few_ticks(axes.xaxis)
 
 
 def draw_cost(folder, table, system):
+    """Evaluations against density, and against temperature where a density has several, into insertion-cost.png."""
     table, step = with_one_step(table)
     combinations, chosen = Combinations(table), rows_where(table, one_per_density(table))
     several = [density for density in sorted(set(table["density"])) if len(set(table["temperature"][table["density"] == density])) > 1]
     several = several[-TEMPERATURE_PANELS:]
-    count = 1 + len(several)
-    rows, columns = (2, 2) if count > 2 else (1, count)
-    figure, panels = plt.subplots(rows, columns, squeeze=False, sharey=True, figsize=((8.0, 12.0)[columns - 1], 1.0 + 4.5 * rows),
-                                  gridspec_kw={"wspace": 0.1, "hspace": 0.38})
+    figure, panels = evaluation_panels(1 + len(several), 0.38)
     flat = list(panels.flat)
     draw_evaluations(flat[0], combinations, chosen, "density")
     flat[0].set_xlabel(DENSITY)
@@ -231,10 +173,6 @@ def draw_cost(folder, table, system):
         axes.set_xlabel(r"temperature $T\;\;[\epsilon/k_\mathrm{B}]$")
         letter(axes, rf"({name}) against temperature, $\rho={density:g}$")
     spread(flat[0].yaxis, [table["evaluations"]])
-    for axes in flat[count:]:
-        axes.set_visible(False)
-    for row in panels:
-        row[0].set_ylabel(EVALUATIONS)
     legend_beside(panels[0, -1], combinations.handles())
     title(figure, [*system, *([] if several else common("T", chosen["temperature"])), *step, *combinations.title()],
           0.42 if several else 0.2)
@@ -242,6 +180,7 @@ def draw_cost(folder, table, system):
 
 
 def draw_distances(folder, table, system):
+    """Mean and largest distance between the start of a search and its result, into insertion-distance.png."""
     table, step = with_one_step(rows_where(table, one_per_density(table)))
     if not (above_zero(table["distance"]) > 0.0).any():
         return
@@ -252,7 +191,7 @@ def draw_distances(folder, table, system):
             axes.plot(rows["density"], above_zero(rows[key]), **style)
         axes.set_xlabel(DENSITY)
         axes.margins(x=0.08)
-        axes.xaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10]))
+        few_ticks(axes.xaxis)
         letter(axes, text)
     logarithmic(panels[0].yaxis)
     panels[0].set_ylabel(r"distance from start to place $[\sigma]$")
@@ -261,70 +200,77 @@ def draw_distances(folder, table, system):
     save(figure, folder / "insertion-distance.png")
 
 
+def draw_steps_of_method(axes, combinations, table, states):
+    """Evaluations against the largest step, a colour for each state. Circles mark the default step."""
+    for colour, (density, temperature) in zip(shades(len(states)), states):
+        rows = rows_where(table, (table["density"] == density) & (table["temperature"] == temperature))
+        for style, line in combinations.lines(rows, "step"):
+            axes.errorbar(line["step"], above_zero(line["evaluations"]), line["evaluations_error"], capsize=3,
+                          **{**style, "color": colour, "markersize": 5})
+            own = line["largest_step"] == "default"
+            axes.plot(line["step"][own], above_zero(line["evaluations"][own]), "o", color=colour, markersize=13, markerfacecolor="none")
+
+
+def state_handles(table, states):
+    """Legend entries of the states' colours, and of the circles if the table has the default step."""
+    one_temperature = len({temperature for _, temperature in states}) == 1
+    handles = [Line2D([], [], color=colour, label=rf"$\rho={density:g}$" + ("" if one_temperature else f", $T={temperature:g}$"))
+               for colour, (density, temperature) in zip(shades(len(states)), states)]
+    if "default" in table["largest_step"]:
+        handles.append(Line2D([], [], color=GREY, linestyle="", marker="o", markersize=13, markerfacecolor="none",
+                              label=r"default, $0.1\,\rho^{-3/2}$"))
+    return handles
+
+
 def draw_steps(folder, table, system):
+    """Evaluations against the largest step, a panel for each method, into insertion-step.png."""
     if len(set(table["largest_step"])) < LARGEST_STEPS_FROM:
         return
     table = rows_where(table, one_per_density(table))
-    combinations = Combinations(table)
-    states = sorted(set(zip(table["density"], table["temperature"])))
     table["step"] = np.array([step_size(step, density) for step, density in zip(table["largest_step"], table["density"])])
-    columns = min(2, len(combinations.methods))
-    rows = -(-len(combinations.methods) // columns)
-    figure, panels = plt.subplots(rows, columns, squeeze=False, sharex=True, sharey=True,
-                                  figsize=((8.0, 12.0)[columns - 1], 1.0 + 4.5 * rows), gridspec_kw={"wspace": 0.1, "hspace": 0.25})
-    one_temperature = len({temperature for _, temperature in states}) == 1
-    defaults = False
+    states, combinations = sorted(set(zip(table["density"], table["temperature"]))), Combinations(table)
+    count = len(combinations.methods)
+    figure, panels = evaluation_panels(count, 0.25, sharex=True)
     for axes, name, method in zip(panels.flat, "abcdefgh", combinations.methods):
-        for colour, (density, temperature) in zip(shades(len(states)), states):
-            of = rows_where(table, (table["method"] == method) & (table["density"] == density) & (table["temperature"] == temperature))
-            for style, line in combinations.lines(of, "step"):
-                axes.errorbar(line["step"], above_zero(line["evaluations"]), line["evaluations_error"], capsize=3,
-                              **{**style, "color": colour, "markersize": 5})
-                own = line["largest_step"] == "default"
-                axes.plot(line["step"][own], above_zero(line["evaluations"][own]), "o", color=colour, markersize=13, markerfacecolor="none")
-                defaults = defaults or own.any()
-        letter(axes, f"({name}) {method}" if len(combinations.methods) > 1 else method)
+        draw_steps_of_method(axes, combinations, rows_where(table, table["method"] == method), states)
+        letter(axes, f"({name}) {method}" if count > 1 else method)
     spread(panels[0, 0].yaxis, [table["evaluations"]])
     if table["step"].max() > 5.0 * table["step"].min():
         logarithmic(panels[0, 0].xaxis)
-    for axes in list(panels.flat)[len(combinations.methods):]:
-        axes.set_visible(False)
-    for k in range(columns):
-        last = panels[(len(combinations.methods) - 1 - k) // columns, k]
+    for k in range(panels.shape[1]):
+        last = panels[(count - 1 - k) // panels.shape[1], k]
         last.set_xlabel(r"largest step $\Delta s_\mathrm{max}\;\;[\sigma]$")
         last.tick_params(labelbottom=True)
-    for row in panels:
-        row[0].set_ylabel(EVALUATIONS)
-    handles = [Line2D([], [], color=colour, label=rf"$\rho={density:g}$" + ("" if one_temperature else f", $T={temperature:g}$"))
-               for colour, (density, temperature) in zip(shades(len(states)), states)]
-    if defaults:
-        handles.append(Line2D([], [], color=GREY, linestyle="", marker="o", markersize=13, markerfacecolor="none",
-                              label=r"default, $0.1\,\rho^{-3/2}$"))
-    legend_beside(panels[0, -1], handles + combinations.handles(methods=False))
+    legend_beside(panels[0, -1], state_handles(table, states) + combinations.handles(methods=False))
     title(figure, [*system, *common("T", table["temperature"]), *combinations.title()])
     save(figure, folder / "insertion-step.png")
 
 
-def draw_holes(folder, table, system):
-    table = rows_where(table, table["holes"] > 0)
-    table = rows_where(table, one_per_density(table))
-    if len(table["density"]) == 0:
-        return
-    figure, panels = plt.subplots(2, 2, sharex=True, figsize=(12.0, 8.0), gridspec_kw={"wspace": 0.27, "hspace": 0.22})
+def draw_hole_lines(panels, table, energies, colours):
+    """Sizes and shapes of holes against density, a colour for each energy of the surface."""
     (radii, major), (anisotropy, eccentricity) = panels
-    energies = sorted(set(table["iso_energy"]))
-    colours = [colour for colour, _ in PAIR_STYLES] if len(energies) <= len(PAIR_STYLES) else shades(len(energies))
     for colour, energy in zip(colours, energies):
         rows = rows_where(table, table["iso_energy"] == energy)
         rows = rows_where(rows, np.argsort(rows["density"], kind="stable"))
-        for axes, key, marker, style in ((radii, "mean_radius", "o", "-"), (radii, "semi_minor", "v", "--"), (major, "semi_major", "^", ":"),
-                                         (anisotropy, "anisotropy", "o", "-"), (eccentricity, "eccentricity", "o", "-")):
+        for axes, (key, _, marker, style) in zip((radii, radii, major), HOLE_SIZES):
             axes.plot(rows["density"], rows[key], color=colour, marker=marker, linestyle=style)
-    low, high = table["density"].min(), table["density"].max()
+        for axes, key in ((anisotropy, "anisotropy"), (eccentricity, "eccentricity")):
+            axes.plot(rows["density"], rows[key], color=colour, marker="o", linestyle="-")
+
+
+def draw_guides(axes, densities):
+    """The default largest step and the mean free path for comparison, as wide light lines. Returns their legend entries."""
+    low, high = densities.min(), densities.max()
     guide = np.linspace(low, high, 60) if low < high else np.array([0.95, 1.05]) * low
     guides = ((0.1 * guide**-1.5, "black", r"$0.1\,\rho^{-3/2}$"), (0.225 / guide, "#B0A000", r"mean free path, $0.225/\rho$"))
     for values, colour, _ in guides:
-        radii.plot(guide, values, color=colour, linewidth=6.0, alpha=0.25, zorder=0, solid_capstyle="butt")
+        axes.plot(guide, values, color=colour, linewidth=6.0, alpha=0.25, zorder=0, solid_capstyle="butt")
+    return [Line2D([], [], color=colour, linewidth=6.0, alpha=0.25, label=text) for _, colour, text in guides]
+
+
+def label_holes(panels, table):
+    """Titles, labels and ranges of the panels."""
+    (radii, major), (anisotropy, eccentricity) = panels
     radii.set_ylim(bottom=0.0)
     spread(major.yaxis, [table["semi_major"]])
     anisotropy.set_ylim(bottom=0.0)
@@ -334,28 +280,41 @@ def draw_holes(folder, table, system):
                               (eccentricity, "(d) eccentricity of the ellipsoid", "eccentricity")):
         letter(axes, text)
         axes.set_ylabel(label)
-        axes.xaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10]))
+        few_ticks(axes.xaxis)
     eccentricity.ticklabel_format(axis="y", useOffset=False)
     for axes in panels[1]:
         axes.set_xlabel(DENSITY)
+
+
+def draw_holes(folder, table, system):
+    """Regions of low energy against density, into insertion-holes.png. Nothing is drawn if none were found."""
+    table = rows_where(table, table["holes"] > 0)
+    table = rows_where(table, one_per_density(table))
+    if len(table["density"]) == 0:
+        return
+    figure, panels = plt.subplots(2, 2, sharex=True, figsize=(12.0, 8.0), gridspec_kw={"wspace": 0.27, "hspace": 0.22})
+    energies = sorted(set(table["iso_energy"]))
+    colours = [colour for colour, _ in PAIR_STYLES] if len(energies) <= len(PAIR_STYLES) else shades(len(energies))
+    draw_hole_lines(panels, table, energies, colours)
+    guides = draw_guides(panels[0, 0], table["density"])
+    label_holes(panels, table)
     figure.align_ylabels(panels)
     handles = [Line2D([], [], color=colour, label=rf"surface at ${energy:g}\,\epsilon$") for colour, energy in zip(colours, energies)]
-    handles += [Line2D([], [], color=GREY, marker=marker, linestyle=style, label=text)
-                for text, marker, style in (("mean radius", "o", "-"), ("semi-minor axis", "v", "--"), ("semi-major axis", "^", ":"))]
-    handles += [Line2D([], [], color=colour, linewidth=6.0, alpha=0.25, label=text) for _, colour, text in guides]
-    legend_beside(major, handles)
+    handles += [Line2D([], [], color=GREY, marker=marker, linestyle=style, label=text) for _, text, marker, style in HOLE_SIZES]
+    legend_beside(panels[0, 1], handles + guides)
     title(figure, [*system, *common("T", table["temperature"]), "regions of low energy"])
     save(figure, folder / "insertion-holes.png")
 
 
 def draw_errors(folder, table, system):
+    """The error at an evaluation and at the next one, into insertion-errors.png. Slope 2 means quadratic convergence."""
     table = rows_where(table, (table["error"] > 0.0) & (table["next_error"] > 0.0))
     if len(table["density"]) == 0:
         return
     figure, axes = plt.subplots(figsize=(9.0, 7.5))
     densities = sorted(set(table["density"]))
     colours = np.array(shades(len(densities)))[np.searchsorted(densities, table["density"])]
-    mixed = np.random.default_rng(1).permutation(len(colours))  # or the last density hides the others
+    mixed = np.random.default_rng(1).permutation(len(colours))  # otherwise points of the last density hide the others
     axes.scatter(table["error"][mixed], table["next_error"][mixed], s=9.0, c=colours[mixed], alpha=0.5, linewidths=0)
     axes.set_xscale("log")
     axes.set_yscale("log")
@@ -367,8 +326,7 @@ def draw_errors(folder, table, system):
     axes.set_xlabel(r"error $|\xi|$ at an evaluation")
     axes.set_ylabel(r"$|\xi|$ at the next")
     for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_locator(LogLocator(numticks=9))
-        axis.set_minor_locator(NullLocator())
+        decade_ticks(axis, 9)
     handles = [Line2D([], [], color=colour, marker="o", linestyle="", label=rf"$\rho={density:g}$")
                for colour, density in zip(shades(len(densities)), densities)]
     handles += [Line2D([], [], color="black", linestyle="--", linewidth=1.5, label="slope 1, equal"),
@@ -379,7 +337,7 @@ def draw_errors(folder, table, system):
 
 
 def draw_insertion(folder, tables, result, run):
-    """A figure for each thing that there are rows of."""
+    """The figures of all tables that have rows."""
     if "densification" in tables:
         draw_densification(folder, tables["densification"], system_parts(result, None, None), run)
     system = system_parts(result, None, run.get("particles"))

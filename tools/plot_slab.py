@@ -1,20 +1,24 @@
-"""Figure of `lanescape slab`: the density along z, and beneath it the mean probability of each state of the sites there."""
+"""The figure of `lanescape slab` for tools/plot.py: profiles.png."""
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
 
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")  # Okabe and Ito
-FEW = 20  # sites in a bin, all samples together: a mean of fewer says little
+from plot_style import BLUE, GREEN, GREY, PURPLE, VERMILLION, plt, read_table
+
+COLOURS = (BLUE, VERMILLION, GREEN, PURPLE)
+FEW = 20  # sites in a bin, over all samples: a mean over fewer is too noisy
+
+
+def read_slab(folder):
+    """The table of profiles, or None if there is none."""
+    file = folder / "profiles.csv"
+    return read_table(file, ["z", "density", "sites"]) if file.exists() else None
 
 
 def draw_slab(folder, profiles):
-    """Write profiles.png from the columns of profiles.csv."""
+    """Density along z, and below it the mean probability of each state of the sites."""
     figure, (upper, lower) = plt.subplots(2, 1, sharex=True, figsize=(6.4, 5.2), layout="constrained")
     z = profiles["z"]
-    upper.plot(z, profiles["density"], color="#595959")
+    upper.plot(z, profiles["density"], color=GREY)
     upper.set_ylabel(r"density  $\rho\sigma^3$")
     upper.set_ylim(bottom=0.0)
     enough = profiles["sites"] >= FEW

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""tools/plot.py on small made-up folders of insertion: which figures it writes, what they show, and how it refuses."""
+"""tools/plot.py on small made-up folders of insertion: the figures that it writes, what they show, and its refusals."""
 
 import json
 import sys
@@ -10,6 +10,7 @@ from plot_support import SCRIPT, PlotTest
 
 sys.path.insert(0, str(SCRIPT.parent))
 import equation_of_state  # noqa: E402
+import plot_densification  # noqa: E402
 import plot_insertion  # noqa: E402
 
 RUN = 'model = "lennard-jones"\ntruncation = "tail"\nparticles = 500\n'
@@ -114,7 +115,7 @@ class PlotInsertion(PlotTest):
         self.write("densification.csv", GROWTH_HEADER, growth_rows())
         table = plot_insertion.read_insertion(self.folder)["densification"]
         run = {"model": "lennard-jones", "truncation": "tail"}
-        lines = plot_insertion.processes(table, run)
+        lines = plot_densification.processes(table, run)
         self.assertEqual(list(lines), list(equation_of_state.EQUATIONS))
         for name, line in lines.items():
             self.assertAlmostEqual(line["density"][0], 0.42)
@@ -122,11 +123,11 @@ class PlotInsertion(PlotTest):
             self.assertAlmostEqual(line["temperature"][0], 2.5)
             np.testing.assert_allclose(1.5 * line["temperature"] + line["e_ex"], 3.75 + equation_of_state.load(name).e_ex(2.5, 0.42))
         for other in ({"model": "kob-andersen"}, {"truncation": "shifted"}, {"model-file": "argon.toml"}):
-            self.assertEqual(plot_insertion.processes(table, {**run, **other}), {})
+            self.assertEqual(plot_densification.processes(table, {**run, **other}), {})
 
     def test_an_equation_of_state_that_says_nothing_of_the_fluid_is_left_out(self):
         table = {"density": np.array([0.4, 1.6]), "temperature": np.array([2.5, 2.6])}
-        self.assertEqual(plot_insertion.processes(table, {"model": "lennard-jones", "truncation": "tail"}), {})
+        self.assertEqual(plot_densification.processes(table, {"model": "lennard-jones", "truncation": "tail"}), {})
 
     def test_of_several_temperatures_that_with_most_densities_stands_for_a_density(self):
         table = {"density": np.array([0.8, 0.4, 0.8, 0.6, 0.9]), "temperature": np.array([1.5, 2.5, 2.5, 2.5, 1.0])}

@@ -1,4 +1,4 @@
-"""What the tests of tools/plot.py share: a folder, its figures, and how the script refuses."""
+"""Shared by the tests of tools/plot.py: a folder of a run, its figures, and the message of a refusal."""
 
 import struct
 import subprocess

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""tools/plot.py on small made-up run folders: which figures it writes, and how it refuses."""
+"""tools/plot.py on small made-up run folders: the figures that it writes, and its refusals."""
 
 import json
 import unittest
