@@ -43,7 +43,7 @@ from plot_diffusion import draw_diffusion, read_diffusion
 from plot_equilibration import draw_equilibration, read_equilibration
 from plot_insertion import draw_insertion, read_insertion
 from plot_path import draw_path, draw_paths, read_paths
-from plot_path_statistics import draw_statistics
+from plot_path_statistics import draw_statistics, read_histograms, read_particle_ratios
 from plot_slab import draw_slab, read_slab
 from plot_style import read_result, read_run_file
 from unusable import Unusable, exit_status
@@ -58,6 +58,7 @@ def draw_folder(folder):
     """All figures of a folder. All tables are read first: if one is missing or damaged, nothing is drawn."""
     result, run = read_result(folder), read_run_file(folder)
     paths = read_paths(folder, result)
+    histograms, ratios = read_histograms(folder, paths), read_particle_ratios(folder, paths)
     equilibration, diffusion = read_equilibration(folder), read_diffusion(folder)
     insertion, slab = read_insertion(folder), read_slab(folder)
     if not paths and equilibration is None and diffusion is None and slab is None and not insertion:
@@ -68,7 +69,7 @@ def draw_folder(folder):
     for path in paths:
         draw_path(folder, path, made, temperature)
     draw_paths(folder, paths, made, temperature)
-    draw_statistics(folder, paths, made, temperature)
+    draw_statistics(folder, paths, histograms, ratios, made, temperature)
     if diffusion is not None:
         draw_diffusion(folder, diffusion, made, temperature)
     draw_insertion(folder, insertion, made, run)

@@ -1,11 +1,9 @@
 """Distributions over the steps and particles of all paths, for tools/plot.py: statistics.png."""
 
-import csv
-
 import numpy as np
 
 from plot_path import path_method
-from plot_style import BLUE, PAIR_STYLES, legend_above, plt, read_text, save, species_name, system_parts
+from plot_style import BLUE, PAIR_STYLES, legend_above, plt, read_table, save, species_name, system_parts
 
 STEP_PANELS = (  # quantity, label, whether it is divided by the number of particles
     ("participation_ratio", "$n/N$", False),
@@ -17,29 +15,30 @@ STEP_PANELS = (  # quantity, label, whether it is divided by the number of parti
 GROUP_SIZES = (("group_size_few_groups", "few"), ("group_size_some_groups", "some"), ("group_size_many_groups", "many"))
 
 
-def read_rows(folder, paths, table):
-    """The rows of one table of all paths; an empty list if a path has no such table."""
+def read_tables(folder, paths, table, columns, text):
+    """One table of all paths; an empty list if a path has no such table."""
     files = [folder / f"{path['name']}-{table}.csv" for path in paths]
-    if not all(file.exists() for file in files):
-        return []
-    return [row for file in files for row in csv.DictReader(read_text(file).splitlines())]
+    return [read_table(file, columns, text) for file in files] if all(file.exists() for file in files) else []
 
 
 def read_histograms(folder, paths):
     """Values and numbers of steps by quantity, summed over all paths."""
     sums = {}
-    for row in read_rows(folder, paths, "steps"):
-        by_value = sums.setdefault(row["quantity"], {})
-        by_value[float(row["value"])] = by_value.get(float(row["value"]), 0) + int(row["steps"])
-    return {quantity: (np.array(sorted(v)), np.array([v[x] for x in sorted(v)], float)) for quantity, v in sums.items()}
+    for table in read_tables(folder, paths, "steps", ("quantity", "value", "steps"), ("quantity",)):
+        for quantity, value, steps in zip(table["quantity"], table["value"], table["steps"]):
+            by_value = sums.setdefault(quantity, {})
+            by_value[value] = by_value.get(value, 0.0) + steps
+    return {quantity: (np.array(sorted(v)), np.array([v[x] for x in sorted(v)])) for quantity, v in sums.items()}
 
 
 def read_particle_ratios(folder, paths):
     """log10(g_j / DeltaR_j) of the particles of all paths, by species."""
     ratios = {}
-    for row in read_rows(folder, paths, "particles"):
-        if float(row["displacement"]) > 0.0 and float(row["path_length"]) > 0.0:
-            ratios.setdefault(row["species"], []).append(np.log10(float(row["path_length"]) / float(row["displacement"])))
+    for table in read_tables(folder, paths, "particles", ("species", "path_length", "displacement"), ("species",)):
+        moved = (table["displacement"] > 0.0) & (table["path_length"] > 0.0)
+        logarithms = np.log10(table["path_length"][moved] / table["displacement"][moved])
+        for species, logarithm in zip(table["species"][moved], logarithms):
+            ratios.setdefault(species, []).append(logarithm)
     return ratios
 
 
@@ -64,9 +63,8 @@ def draw_path_lengths(axes, ratios, model):
     legend_above(axes)
 
 
-def draw_statistics(folder, paths, result, temperature):
+def draw_statistics(folder, paths, histograms, ratios, result, temperature):
     """Distributions over the steps and the particles of all paths, into statistics.png. Nothing is drawn if either table is missing."""
-    histograms, ratios = read_histograms(folder, paths), read_particle_ratios(folder, paths)
     if not histograms or not ratios:
         return
     counted = {quantity for quantity, (_, counts) in histograms.items() if counts.sum() > 0}

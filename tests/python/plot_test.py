@@ -104,6 +104,13 @@ class Plot(PlotTest):
         write_table(self.folder / "path-0001-trace.csv", PATH_HEADER, ["1,2,3"])
         self.assert_refuses("path-0001-trace.csv")
 
+    def test_a_damaged_histogram_is_refused(self):
+        self.write_run([path_summary()])
+        write_table(self.folder / "path-0001-particles.csv", "particle,species,path_length,displacement", ["0,Ni,2.0,1.0"])
+        for rows in (["participation_ratio,0.1,many"], ["participation_ratio,0.1"]):
+            write_table(self.folder / "path-0001-steps.csv", "quantity,value,steps", rows)
+            self.assert_refuses("path-0001-steps.csv")
+
     def test_an_empty_run_is_refused(self):
         self.write_run([])
         self.assert_refuses("nothing to draw")
