@@ -1,16 +1,16 @@
 #!/usr/bin/python3
 """Draw the benchmark of neighbour lists: tools/plot_bench.py BENCH.json [--peers PEERS.json] --out DIR
 
-BENCH.json is Google Benchmark's JSON of bench_lists over sizes, repetitions or not; PEERS.json what bench/peers/lammps.py writes
-with --json. Writes into DIR:
-  scaling.png    time per particle (counter ns_per_particle) against the number of particles, a panel per case, with the peers' points
-  roofline.png   speed against arithmetic intensity under the measured peak of a core, from the counters flops_per_byte and gflops (of all
-                 threads) and the context peak_gflops (of one core); where the counters are absent, the share of the measured peak
-                 (fraction_of_peak) against the number of particles; left out where that is absent too
-  peers.png      how many times longer the peers take than Lanescape, per case and size, with --peers
+BENCH.json is the JSON that Google Benchmark writes for bench_lists at several sizes, with or without repetitions. PEERS.json is the JSON
+that bench/peers/lammps.py writes. Writes into DIR:
+  scaling.png    time per particle (counter ns_per_particle) against the number of particles, a panel for each case, peers included
+  roofline.png   speed against arithmetic intensity with the measured peak of a core, from the counters flops_per_byte and gflops (of all
+                 threads) and the context peak_gflops (of one core). Without these counters it shows the share of the measured peak
+                 (fraction_of_peak) against the number of particles. Without that counter it is not drawn
+  peers.png      time of the peers over time of Lanescape, by case and size; only with --peers
 
-Of several instruction sets the widest is drawn. Points are medians of repetitions, bars their range.
-Exit status 0, or 2 with one line on stderr when something is missing or cannot be read; then nothing is drawn.
+The figures show the widest instruction set in the file. Points are medians of repetitions, bars their range.
+Exit status: 0; or 2 with one line on stderr if input is missing or cannot be read. Then nothing is drawn.
 """
 
 import math
@@ -18,32 +18,26 @@ import statistics
 import sys
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter, NullLocator
 
-from benchmark_results import ISAS, MODELS, Arguments, Unusable, parts_of, read_json, read_results, repetitions, value
+from benchmark_results import ISAS, MODELS, Arguments, parts_of, read_json, read_results, repetitions, value
+from plot_style import BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILLION, plt, save
+from unusable import Unusable, exit_status
 
-# Okabe and Ito, told apart with every common colour vision. Colour is the code, line and marker the number of threads.
-BLUE, VERMILLION, GREEN, PURPLE, ORANGE, GREY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#595959"
+# Colours stand for codes, lines and markers for numbers of threads.
 PEER_COLOURS = (VERMILLION, GREEN, PURPLE, ORANGE)
 MARKERS, LINES = ("o", "s", "^", "D", "v"), ("-", "--", "-.", ":", (0, (1, 3)))
 CASE_NAMES = {"force": "Force", "force+energy+virial": "Force, energy and virial", "energy": "Energy", "step": "Molecular dynamics step"}
 
-plt.rcParams.update({
-    "font.size": 13, "axes.labelsize": 14, "axes.titlesize": 14, "legend.fontsize": 12, "xtick.labelsize": 12, "ytick.labelsize": 12,
-    "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False, "savefig.dpi": 150, "lines.linewidth": 2.0,
-    "lines.markersize": 7, "mathtext.fontset": "dejavusans", "axes.linewidth": 1.0,
-})
+plt.rcParams.update({"axes.titlesize": 14, "lines.markersize": 7})
 
-
-# ---- reading
 
 def read_bench(file):
-    """The context and a point per benchmark of the widest instruction set: case, model, N, threads, samples of ns, other counters."""
+    """The context, a point for each benchmark of the widest instruction set, and the name of that set.
+
+    A point holds case, model, number of particles, threads, isa, samples [ns per particle] and the other counters.
+    """
     data = read_results(file)
     points = []
     for name, entries in repetitions(data, file).items():
@@ -62,6 +56,7 @@ def read_bench(file):
 
 
 def read_peers(file):
+    """The rows of other codes, checked."""
     report = read_json(file)
     rows = report.get("results") if isinstance(report, dict) else None
     if not isinstance(rows, list) or not rows:
@@ -80,7 +75,7 @@ def read_peers(file):
 
 
 def peak_of(context, isa):
-    """GFLOP/s of one core: `peak_gflops`, or what our benchmarks write as `peak avx2`."""
+    """Measured peak of one core [GFLOP/s] from the context: `peak_gflops`, or for example `peak avx2`. None if there is none."""
     try:
         peak = float(str(context.get("peak_gflops", context.get(f"peak {isa}", ""))).split()[0])
     except (ValueError, IndexError):
@@ -88,10 +83,8 @@ def peak_of(context, isa):
     return peak if math.isfinite(peak) and peak > 0 else None
 
 
-# ---- parts of figures
-
 def in_order(values, first=()):
-    """Without repetition: those of `first`, then the others as they come."""
+    """The values without repetition: those in `first` in its order, then the others in theirs."""
     return sorted(dict.fromkeys(values), key=lambda v: first.index(v) if v in first else len(first))
 
 
@@ -105,7 +98,7 @@ def style_of(threads, all_threads):
 
 
 def cores(count):
-    """Threads, or the processes of a peer that works with them."""
+    """The number of cores for a legend: one for each thread or process."""
     return f"{count} core{'s' if count > 1 else ''}"
 
 
@@ -114,7 +107,7 @@ def particle_number(n, _=None):
 
 
 def draw_line(axes, rows, colour, label, style):
-    """Medians against N, with the range of the repetitions."""
+    """Medians against N with bars for the range of the repetitions."""
     rows = sorted(rows, key=lambda row: row["particles"])
     x, samples = [row["particles"] for row in rows], [row["samples"] for row in rows]
     y = np.array([statistics.median(s) for s in samples])
@@ -123,7 +116,7 @@ def draw_line(axes, rows, colour, label, style):
 
 
 def particle_axis(axes, sizes):
-    """Logarithmic, ticks where there are points; every second one named where they are close."""
+    """A logarithmic axis with ticks at the sizes, or at every second size if they are close."""
     sizes = sorted(set(sizes))
     axes.set_xscale("log")
     axes.set_xlim(sizes[0] / 1.6, sizes[-1] * 1.6)
@@ -135,14 +128,14 @@ def particle_axis(axes, sizes):
 
 
 def plain_numbers(axis):
-    """1, 2, 5, 10, ... on a logarithmic axis."""
+    """Labels 1, 2, 5, 10, ... on a logarithmic axis."""
     axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0), numticks=30))
     axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
     axis.set_minor_formatter(NullFormatter())
 
 
 def shared_legend(figure, axes_list, columns):
-    """Once for all panels, above them, where no data can be; in the order of labels' first words, columns being filled first."""
+    """One legend for all panels, above them. Labels of the same code stand together, because columns are filled first."""
     found = {}
     for axes in axes_list:
         for handle, label in zip(*axes.get_legend_handles_labels()):
@@ -153,15 +146,8 @@ def shared_legend(figure, axes_list, columns):
                   borderaxespad=0.2, handlelength=2.6)
 
 
-def save(figure, file):
-    figure.savefig(file, bbox_inches="tight", pad_inches=0.15)
-    plt.close(figure)
-
-
-# ---- figures
-
 def panels_of(points):
-    """(model, case) with the model None where names do not hold it."""
+    """The (model, case) of each panel. The model is None if the names of the benchmarks do not contain it."""
     models = in_order([point["model"] for point in points], tuple(MODELS))
     cases = in_order([point["case"] for point in points], tuple(CASE_NAMES))
     present = {(point["model"], point["case"]) for point in points}
@@ -184,7 +170,7 @@ def draw_scaling(file, points, peers, isa):
     codes = in_order([(row["code"], row["variant"]) for row in peers])
     for axes, (model, case) in zip(grid.flat, panels):
         own = [p for p in points if (p["model"], p["case"]) == (model, case)]
-        # Names without a model are those of one liquid, the first of the peers' file.
+        # Names without a model: the liquid is the first one in the file of peers.
         theirs = [row for row in peers if row["case"] == case and row["model"] == (model or peers[0]["model"])]
         for t in threads:
             mine = [p for p in own if p["threads"] == t]
@@ -210,7 +196,7 @@ def draw_scaling(file, points, peers, isa):
 
 
 def draw_roofline(file, points, peak, isa):
-    """Speed against intensity where the counters are there. The roof is the measured peak; the slope, if any, is in the data."""
+    """Speed against arithmetic intensity. The roof is the measured peak; the slope of the memory bandwidth is not drawn."""
     figure, axes = plt.subplots(figsize=(8.5, 5.2), layout="constrained")
     threads, panels = threads_of(points), panels_of(points)
     colours = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, GREY)
@@ -256,7 +242,7 @@ def draw_fraction(file, points, isa):
 
 
 def draw_peers(file, peers):
-    """A panel per liquid and number of threads, a group of bars per case and size."""
+    """A panel for each liquid and number of threads, a group of bars for each case and size."""
     rows = [row for row in peers if row.get("ratio") is not None]
     models, threads = in_order([row["model"] for row in rows], tuple(MODELS)), threads_of(rows)
     codes = in_order([(row["code"], row["variant"]) for row in rows])
@@ -293,8 +279,6 @@ def draw_peers(file, peers):
     save(figure, file)
 
 
-# ---- program
-
 def draw(options):
     context, points, isa = read_bench(options.bench)
     peers = read_peers(options.peers) if options.peers else []
@@ -314,16 +298,11 @@ def draw(options):
 
 
 def main(arguments):
-    parser = Arguments(prog="plot_bench.py", description="Draws the benchmark of neighbour lists; see the head of this file.")
+    parser = Arguments(prog="plot_bench.py", description="Draws the benchmark of neighbour lists; the head of this file describes them.")
     parser.add_argument("bench", metavar="BENCH.json")
     parser.add_argument("--peers", metavar="PEERS.json", help="of bench/peers/lammps.py")
     parser.add_argument("--out", metavar="DIR", type=Path, required=True, help="the folder of the figures")
-    try:
-        draw(parser.parse_args(arguments))
-    except Unusable as error:
-        print(f"plot_bench.py: {error}", file=sys.stderr)
-        return 2
-    return 0
+    return exit_status("plot_bench.py", lambda: draw(parser.parse_args(arguments)))
 
 
 if __name__ == "__main__":
