@@ -196,8 +196,8 @@ class Comparison(unittest.TestCase):
         scripts = self.record.read_text().splitlines()
         self.assertTrue([line for line in scripts if line.endswith("seed1.in")])
 
-    def test_a_list_made_anew_in_a_run_of_forces_is_noticed(self):
-        self.assert_fails(self.compare(environment={"FAKE_REBUILDS": "1"}), 1, "made anew 1 times")
+    def test_a_list_rebuilt_in_a_run_of_forces_is_noticed(self):
+        self.assert_fails(self.compare(environment={"FAKE_REBUILDS": "1"}), 1, "rebuilt 1 times")
 
     def test_a_benchmark_that_fails_its_check_is_noticed(self):
         self.assert_fails(self.compare(environment={"FAKE_WRONG": "1"}), 1, "wrong gradient")
