@@ -1,4 +1,4 @@
-"""This project's side of a comparison: the program's energy and bench_lists, on a file."""
+"""Lanescape's side of a comparison: `lanescape energy` and bench_lists on a file."""
 
 import json
 import os
@@ -10,16 +10,17 @@ CASES = ("force", "force+energy+virial", "step")
 
 
 class Failed(Exception):
-    """A program did not do what it should, in one line."""
+    """How a program failed, in one line."""
 
 
 def last_line(text):
+    """The last line with a letter or digit: where programs say why they failed."""
     lines = [line.strip() for line in text.splitlines() if any(c.isalnum() for c in line)]
     return lines[-1] if lines else "no message"
 
 
 def run(command, environment=None):
-    """Standard output of a program that must succeed."""
+    """The standard output of a program. Raises Failed if its exit status is not 0."""
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, errors="replace",
                           stdin=subprocess.DEVNULL, env={**os.environ, **(environment or {})})
     if done.returncode != 0:
@@ -28,12 +29,13 @@ def run(command, environment=None):
 
 
 def energy_and_virial(program, file, liquid, cutoff):
+    """Potential energy [epsilon] and virial [epsilon] of a configuration, cut and shifted at `cutoff` [sigma_ab]."""
     result = json.loads(run([program, "energy", file, "--model", liquid.model, "--cutoff", cutoff, "--truncation", "shifted", "--quiet"]))
     return result["energy"], result["virial"]
 
 
 class Bench:
-    """bench_lists on one configuration: one instruction set, the widest there is unless one is asked for."""
+    """bench_lists on one configuration with one instruction set, by default the widest that it has."""
 
     def __init__(self, program, file, liquid, particles, cases, threads, isa=None):
         self.command = [program, f"--configuration={file}", f"--model={liquid.model}"]
@@ -51,7 +53,7 @@ class Bench:
                     self.missing.append((case, count))
 
     def measure(self):
-        """(case, threads): nanoseconds per particle, or per particle and step; the median where a run repeats itself."""
+        """Medians over repetitions by (case, threads): nanoseconds per particle, for whole steps per particle and step."""
         if not self.names:
             return {}
         pattern = "^(" + "|".join(name.replace("+", "[+]").replace(".", "[.]") for name in self.names) + ")$"

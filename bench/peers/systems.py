@@ -1,4 +1,4 @@
-"""The liquids on which codes are compared, and their files. Reduced units, masses 1."""
+"""The liquids for comparisons of codes, and files of their configurations. Reduced units, masses 1."""
 
 import dataclasses
 import math
@@ -14,15 +14,15 @@ class Liquid:
     model: str
     density: float
     temperature: float
-    melting_temperature: float  # a lattice melts within a time unit or two
-    species: tuple  # as in files
+    melting_temperature: float  # a lattice melts within two time units
+    species: tuple  # names in files
     pairs: dict  # (a, b) with a <= b: epsilon, sigma
-    fraction_of_last: float
+    fraction_of_last: float  # of the particles, of the last species
 
 
 LIQUIDS = {liquid.model: liquid for liquid in (
     Liquid("kob-andersen", 1.2, 1.0, 5.0, ("Ni", "P"), {(0, 0): (1.0, 1.0), (0, 1): (1.5, 0.8), (1, 1): (0.5, 0.88)}, 0.2),
-    # Near the triple point: the state that LAMMPS's `melt` and MD-Bench reach from their lattice at T = 1.44.
+    # Near the triple point. LAMMPS's benchmark `melt` and MD-Bench reach this state from a lattice at T = 1.44.
     Liquid("lennard-jones", 0.8442, 0.722, 3.0, ("Ar",), {(0, 0): (1.0, 1.0)}, 0.0))}
 
 
@@ -38,12 +38,12 @@ class Configuration:
 
 
 def lattice_constant(liquid, particles):
-    """The edge of the cubic box, and of how many fcc cells along it the lattice has sites enough."""
+    """The edge of the cubic box [sigma], and the smallest number of fcc cells along it with enough sites."""
     return (particles / liquid.density) ** (1.0 / 3.0), math.ceil(round((particles / 4) ** (1.0 / 3.0), 9))
 
 
 def lattice(liquid, particles, seed):
-    """An fcc lattice, species at random sites; vacancies where the number is not 4 n^3."""
+    """An fcc lattice with the species at random sites. It has vacancies unless the number of particles is 4 n^3."""
     rng = np.random.default_rng(seed)
     edge, cells = lattice_constant(liquid, particles)
     corners = np.stack(np.meshgrid(*[np.arange(cells)] * 3, indexing="ij"), axis=-1).reshape(-1, 1, 3)
@@ -55,8 +55,9 @@ def lattice(liquid, particles, seed):
 
 
 def wrapped(positions, edge):
+    """The positions in the box [0, edge)."""
     inside = positions - edge * np.floor(positions / edge)
-    inside[inside >= edge] = 0.0  # the rounding of a tiny negative number
+    inside[inside >= edge] = 0.0  # a tiny negative number plus edge rounds to edge
     return inside
 
 
@@ -68,7 +69,7 @@ def lattice_order(configuration):
 
 
 def write_extended_xyz(file, configuration):
-    """With the shortest digits that read back as the same bits."""
+    """Extended XYZ with the shortest digits that read back as the same bits."""
     edge, names = repr(float(configuration.edge)), configuration.liquid.species
     lines = [str(len(configuration)),
              f'Lattice="{edge} 0 0 0 {edge} 0 0 0 {edge}" Properties=species:S:1:pos:R:3 pbc="T T T"']
@@ -77,7 +78,7 @@ def write_extended_xyz(file, configuration):
 
 
 def read_extended_xyz(file, liquid):
-    """What write_extended_xyz has written."""
+    """The configuration in a file of write_extended_xyz."""
     count, comment, *rows = Path(file).read_text().splitlines()
     if len(rows) != int(count):
         raise ValueError(f"{count} particles announced, {len(rows)} found")
