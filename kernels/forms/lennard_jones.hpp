@@ -9,7 +9,9 @@ namespace lanescape::kernels::LANESCAPE_ISA {
 template <class V>
 struct LennardJones {
   static constexpr bool has_diameters = false;
-  static constexpr bool in_box_units = true;  // LengthUnit::box saves three products a vector; it doubles what is compiled
+  // Loops in units of the box and with a mask for every edge: faster by three products a vector, and three times the code to
+  // compile.
+  static constexpr bool specialised = true;
 
   struct Parameters {
     V c12, c6, shift, twelve_c12, minus_six_c6, cutoff_squared;

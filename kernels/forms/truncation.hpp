@@ -66,7 +66,7 @@ LANESCAPE_INLINE void add_sums(Totals& totals, const Correction<Vector>& u, cons
 template <class V>
 struct TruncatedForm {
   static constexpr bool has_diameters = false;
-  static constexpr bool in_box_units = false;
+  static constexpr bool specialised = false;
 
   template <class Parameters>
   static LANESCAPE_INLINE auto in_range(const Parameters& u, const Separation<V>& s) {

@@ -170,11 +170,18 @@ LANESCAPE_INLINE void tile_against_block(const Columns& columns, const SpeciesBl
     const std::size_t past_diagonal = (limits.first_row + row_tile + lanes - 1) / lanes * lanes;
     std::size_t clear = limits.same_species ? past_diagonal : 0;
     if (limits.first_row + row_tile > limits.row_count) clear = padded;
-    loop.template operator()<Masking::rows>(limits.first_column, clear);
-    loop.template operator()<Masking::none>(clear, whole);
-    // One mask serves all four rows; a loop of its own is worth its time to compile only where it is hot.
-    constexpr Masking last = Form::in_box_units ? Masking::columns : Masking::rows;
-    loop.template operator()<last>(clear > whole ? clear : whole, padded);
+    const std::size_t rest = clear > whole ? clear : whole;
+    if constexpr (Form::specialised) {
+      // One mask serves all four rows at the end.
+      loop.template operator()<Masking::rows>(limits.first_column, clear);
+      loop.template operator()<Masking::none>(clear, whole);
+      loop.template operator()<Masking::columns>(rest, padded);
+    } else {
+      // Both edges go through one loop: half the code to compile.
+      const std::size_t edges[2][2] = {{limits.first_column, clear}, {rest, padded}};
+      for (const auto& edge : edges) loop.template operator()<Masking::rows>(edge[0], edge[1]);
+      loop.template operator()<Masking::none>(clear, whole);
+    }
   }
   add_sums(totals, u, sums);
 }
@@ -191,6 +198,13 @@ LANESCAPE_INLINE void start_all_pairs(const PairInput& in, double* gradient) {
   }
 }
 
+// The box with the shells of images that a rule needs.
+LANESCAPE_INLINE Box with_shells_of(ImageSearch images, const Box& box) {
+  if (images == ImageSearch::lattice) return box;
+  const std::int32_t shells = images == ImageSearch::two_nearest ? 1 : 0;
+  return {box.length, {shells, shells, shells}};
+}
+
 // A tile of rows of species a against all species from a on.
 template <class Form, Output output, LengthUnit unit>
 LANESCAPE_INLINE void tile_against_all(const PairInput& in, std::size_t a, std::size_t i, double* gradient, const Box& box,
@@ -203,13 +217,18 @@ LANESCAPE_INLINE void tile_against_all(const PairInput& in, std::size_t a, std::
     const EdgeLimits limits{i, same ? i / lanes * lanes : 0, block.count, in.blocks[a].count, same};
     const Columns columns{in.scratch + block.begin, gradient + block.begin,
                           Form::has_diameters ? in.diameters + block.begin : nullptr, in.slots};
-    const auto run = [&]<ImageSearch images>() __attribute__((always_inline)) {
-      tile_against_block<Form, images, output, unit>(columns, block, limits, box, u, rows, totals);
+    const auto run = [&]<ImageSearch images>(const Box& in_box) __attribute__((always_inline)) {
+      tile_against_block<Form, images, output, unit>(columns, block, limits, in_box, u, rows, totals);
     };
-    if (pair.images == ImageSearch::nearest) run.template operator()<ImageSearch::nearest>();
-    if (pair.images == ImageSearch::two_nearest) run.template operator()<ImageSearch::two_nearest>();
+    if constexpr (output == Output::stress && !Form::specialised) {
+      // One loop over shells of images for every rule: slower, and a third of the code to compile.
+      run.template operator()<ImageSearch::lattice>(with_shells_of(pair.images, box));
+      continue;
+    }
+    if (pair.images == ImageSearch::nearest) run.template operator()<ImageSearch::nearest>(box);
+    if (pair.images == ImageSearch::two_nearest) run.template operator()<ImageSearch::two_nearest>(box);
     if constexpr (unit == LengthUnit::sigma)
-      if (pair.images == ImageSearch::lattice) run.template operator()<ImageSearch::lattice>();
+      if (pair.images == ImageSearch::lattice) run.template operator()<ImageSearch::lattice>(box);
   }
 }
 
@@ -250,9 +269,13 @@ void all_pairs(const PairInput& in, double* gradient, PairOutput& out) {
 
 template <class Form, Output output>
 LANESCAPE_INLINE void sum_all_pairs(const PairInput& in, double* gradient, PairOutput& out) {
-  if constexpr (Form::in_box_units)
+  if constexpr (Form::specialised)
     if (in.unit == LengthUnit::box) return all_pairs<Form, output, LengthUnit::box>(in, gradient, out);
   all_pairs<Form, output, LengthUnit::sigma>(in, gradient, out);
+  // Without loops of its own for each image rule, stress adds in another order. All but the tensor comes from the gradient's loops,
+  // so that energies agree to the bit.
+  if constexpr (output == Output::stress && !Form::specialised)
+    all_pairs<Form, Output::gradient, LengthUnit::sigma>(in, gradient, out);
 }
 
 }  // namespace lanescape::kernels::LANESCAPE_ISA

@@ -55,7 +55,7 @@ struct PairLoops {
   }
 
   static constexpr PairKernels kernels() noexcept {
-    return {.in_box_units = Exact::in_box_units,
+    return {.in_box_units = Exact::specialised,
             .energy = all_pairs_energy,
             .gradient = all_pairs<Output::gradient>,
             .stress = all_pairs<Output::stress>,

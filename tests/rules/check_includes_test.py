@@ -84,6 +84,9 @@ CASES = [
     ("tests/unit/a.cpp", '"tests/unit/a.hpp"', False),
     ("tests/install/a.cpp", "<lanescape/lanescape.hpp>", True),
     ("tests/install/a.cpp", '"core/box.hpp"', False),
+    ("tests/install/kernels/a.cpp", '"dispatch/isa.hpp"', True),
+    ("tests/install/kernels/a.cpp", '"kernel_table.hpp"', True),
+    ("tests/install/kernels/a.cpp", '"io/extended_xyz.hpp"', False),
 ]
 
 

@@ -139,8 +139,8 @@ Json run_diffusion_command(DiffusionState& state, Options& options, int& status)
 }  // namespace
 
 Subcommand add_diffusion(CLI::App& app) {
-  CLI::App* sub = app.add_subcommand("diffusion", "Self-diffusion from velocity correlations and from displacements");
-  const auto options = std::make_shared<Options>(*sub);
+  const auto options =
+      std::make_shared<Options>(app, "diffusion", "Self-diffusion from velocity correlations and from displacements");
   const auto state = std::make_shared<DiffusionState>();
   options->add("--interval", state->interval,
                "time between records [hard spheres: those published for this packing fraction; soft 0.01]");
@@ -156,7 +156,7 @@ Subcommand add_diffusion(CLI::App& app) {
     options->at(of_pairs).refused("with diffusion, which makes no pairs: it is for endpoints and path");
   state->system.add_to(*options);
   state->common.add_to(*options);
-  return {sub, [=](int& status) { return run_diffusion_command(*state, *options, status); }};
+  return {&options->app(), [=](int& status) { return run_diffusion_command(*state, *options, status); }};
 }
 
 }  // namespace lanescape::program

@@ -32,14 +32,13 @@ Json run_endpoints(EndPointsState& state, Options& options, int& status) {
 }  // namespace
 
 Subcommand add_endpoints(CLI::App& app) {
-  CLI::App* sub = app.add_subcommand("endpoints", "Equilibrate a liquid and collect pairs of end points");
-  const auto options = std::make_shared<Options>(*sub);
+  const auto options = std::make_shared<Options>(app, "endpoints", "Equilibrate a liquid and collect pairs of end points");
   const auto state = std::make_shared<EndPointsState>();
   state->setup.add_to(*options);
   state->setup.add_tolerance_to(*options);
   state->system.add_to(*options);
   state->common.add_to(*options);
-  return {sub, [=](int& status) { return run_endpoints(*state, *options, status); }};
+  return {&options->app(), [=](int& status) { return run_endpoints(*state, *options, status); }};
 }
 
 }  // namespace lanescape::program

@@ -143,8 +143,7 @@ Json run_energy(EnergyState& state, Options& options) {
 }  // namespace
 
 Subcommand add_energy(CLI::App& app) {
-  CLI::App* sub = app.add_subcommand("energy", "Potential energy, virial, stress and forces of a configuration");
-  const auto options = std::make_shared<Options>(*sub);
+  const auto options = std::make_shared<Options>(app, "energy", "Potential energy, virial, stress and forces of a configuration");
   const auto state = std::make_shared<EnergyState>();
   options->add_positional("FILE", state->file, "extended XYZ; of several frames the first is used").required();
   options->add_flag("--forces", state->forces, "list the forces too");
@@ -153,7 +152,7 @@ Subcommand add_energy(CLI::App& app) {
   options->add("--backend", state->backend, "simd, or the scalar reference");
   state->system.add_to(*options);
   state->common.add_to(*options);
-  return {sub, [=](int&) { return run_energy(*state, *options); }};
+  return {&options->app(), [=](int&) { return run_energy(*state, *options); }};
 }
 
 }  // namespace lanescape::program

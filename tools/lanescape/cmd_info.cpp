@@ -26,11 +26,10 @@ std::string compiler_name() {
 }  // namespace
 
 Subcommand add_info(CLI::App& app) {
-  CLI::App* sub = app.add_subcommand("info", "Version, compiler, processor, instruction sets and threads");
-  const auto options = std::make_shared<Options>(*sub);
+  const auto options = std::make_shared<Options>(app, "info", "Version, compiler, processor, instruction sets and threads");
   const auto common = std::make_shared<CommonOptions>();
   common->add_to(*options);
-  return {sub, [=](int&) {
+  return {&options->app(), [=](int&) {
             common->check();
             const Isa active = common->resolve_isa();
             OutputFolder folder = open_folder(*common);

@@ -167,8 +167,8 @@ void add_scan_options(Options& options, InsertState& state) {
 }  // namespace
 
 Subcommand add_insert(CLI::App& app) {
-  CLI::App* sub = app.add_subcommand("insert", "Insert particles where their energy has a given value (USHER), and remove some");
-  const auto options = std::make_shared<Options>(*sub);
+  const auto options =
+      std::make_shared<Options>(app, "insert", "Insert particles where their energy has a given value (USHER), and remove some");
   const auto state = std::make_shared<InsertState>();
   options->add_positional("FILE", state->file, "extended XYZ; of several frames the first is used").only_for({into_file, growth});
   options->add("--count", state->count, "particles to insert; of --scan, places per configuration and combination")
@@ -193,7 +193,7 @@ Subcommand add_insert(CLI::App& app) {
   state->system.add_to(*options);
   options->at("--precision").refused("with insert: probes are in double precision");
   state->common.add_to(*options);
-  return {sub, [=](int& status) { return run_insert(*state, *options, status); }};
+  return {&options->app(), [=](int& status) { return run_insert(*state, *options, status); }};
 }
 
 }  // namespace lanescape::program

@@ -52,12 +52,12 @@ Json run_overlap(OverlapState& state, const Options& options, int& status) {
 }  // namespace
 
 Subcommand add_overlap(CLI::App& app) {
-  CLI::App* sub = app.add_subcommand("overlap", "Overlapping pairs of hard spheres in a file, and the smallest gap");
-  const auto options = std::make_shared<Options>(*sub);
+  const auto options =
+      std::make_shared<Options>(app, "overlap", "Overlapping pairs of hard spheres in a file, and the smallest gap");
   const auto state = std::make_shared<OverlapState>();
   options->add_positional("FILE", state->file, "extended XYZ file with a radius column; its first frame is taken").required();
   state->common.add_to(*options);
-  return {sub, [=](int& status) { return run_overlap(*state, *options, status); }};
+  return {&options->app(), [=](int& status) { return run_overlap(*state, *options, status); }};
 }
 
 }  // namespace lanescape::program

@@ -287,15 +287,13 @@ Json run_path(PathState& state, Options& options, int& status) {
 }  // namespace
 
 Subcommand add_path(CLI::App& app) {
-  CLI::App* sub = app.add_subcommand("path", "Find geodesics between pairs of end points");
-  const auto options = std::make_shared<Options>(*sub);
+  const auto options = std::make_shared<Options>(app, "path", "Find geodesics between pairs of end points");
   const auto state = std::make_shared<PathState>();
   options->add("--pair", state->pair_files, "files with two frames, the end points; without any, pairs are made as by endpoints");
   options->add("--method", state->method,
                fmt::format("{}; {} for hard spheres [{}, {}]", path_method_words(false, " or "), path_method_words(true, " or "),
                            default_path_method(false).word, default_path_method(true).word));
-  // Nothing to choose yet: a name for what is done anyway.
-  sub->add_flag_function("--faithful", [](std::int64_t) {}, "steps exactly as published (the default)")->disable_flag_override();
+  options->add_synonym_of_default("--faithful", "steps exactly as published (the default)");
   options->add("--step", state->step, "length of a direct step in 3N space [sigma] [0.001; hard spheres 0.01]")
       .only_for({direct_steps_of_a_length});
   options
@@ -315,7 +313,7 @@ Subcommand add_path(CLI::App& app) {
   state->setup.add_tolerance_to(*options);
   state->system.add_to(*options);
   state->common.add_to(*options);
-  return {sub, [=](int& status) { return run_path(*state, *options, status); }};
+  return {&options->app(), [=](int& status) { return run_path(*state, *options, status); }};
 }
 
 }  // namespace lanescape::program

@@ -74,8 +74,8 @@ Json run_slab_command(SlabState& state, Options& options, int& status) {
 }  // namespace
 
 Subcommand add_slab(CLI::App& app) {
-  CLI::App* sub = app.add_subcommand("slab", "Profiles of a liquid slab and its vapour, sites in states by Langevin dynamics");
-  const auto options = std::make_shared<Options>(*sub);
+  const auto options =
+      std::make_shared<Options>(app, "slab", "Profiles of a liquid slab and its vapour, sites in states by Langevin dynamics");
   const auto state = std::make_shared<SlabState>();
   SlabOptions& slab = state->slab;
   options->add("--particles", slab.particles, "sites");
@@ -92,7 +92,7 @@ Subcommand add_slab(CLI::App& app) {
   options->add_flag("--plot", state->plot, "draw the profiles (needs --out)").only_for({runs_with_a_folder});
   state->system.add_to(*options);
   state->common.add_to(*options);
-  return {sub, [=](int& status) { return run_slab_command(*state, *options, status); }};
+  return {&options->app(), [=](int& status) { return run_slab_command(*state, *options, status); }};
 }
 
 }  // namespace lanescape::program

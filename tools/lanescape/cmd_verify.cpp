@@ -87,8 +87,8 @@ Json run_verify(VerifyState& state, Options& options, int& status) {
 }  // namespace
 
 Subcommand add_verify(CLI::App& app) {
-  CLI::App* sub = app.add_subcommand("verify", "Every kernel on every instruction set against the scalar reference");
-  const auto options = std::make_shared<Options>(*sub);
+  const auto options =
+      std::make_shared<Options>(app, "verify", "Every kernel on every instruction set against the scalar reference");
   const auto state = std::make_shared<VerifyState>();
   options->add_positional("FILES", state->files, "extended XYZ files to check on besides the built-in cases");
   options->add("--junit", state->junit, "also write the results to this file as JUnit XML");
@@ -99,7 +99,7 @@ Subcommand add_verify(CLI::App& app) {
   options->at("--images").refused("with verify: it checks both image rules, all and minimum");
   options->at("--precision").refused("with verify: it checks both precisions, double and mixed");
   state->common.add_to(*options);
-  return {sub, [=](int& status) { return run_verify(*state, *options, status); }};
+  return {&options->app(), [=](int& status) { return run_verify(*state, *options, status); }};
 }
 
 }  // namespace lanescape::program

@@ -1,16 +1,116 @@
 #include "options.hpp"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <optional>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include "core/error.hpp"
 
 namespace lanescape::program {
+namespace {
+
+// What is wrong with the text of a number; empty if nothing is, as CLI11 wants it.
+std::string count_fault(const std::string& text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool sound = error == std::errc() && end == text.data() + text.size();
+  return sound ? "" : "'" + text + "' is not allowed: a whole number from 0 to 18446744073709551615 is needed";
+}
+
+std::string number_fault(const std::string& text) { return text.empty() ? "'' is not allowed: a number is needed" : ""; }
+
+template <class T>
+void write(toml::table& table, const std::string& key, const T& value) {
+  if constexpr (std::is_same_v<T, int>) {
+    table.insert_or_assign(key, static_cast<std::int64_t>(value));
+  } else if constexpr (std::is_same_v<T, std::uint64_t>) {
+    // TOML's integers have a sign; a text is read back just the same.
+    if (value <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
+      table.insert_or_assign(key, static_cast<std::int64_t>(value));
+    else
+      table.insert_or_assign(key, std::to_string(value));
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    if (!value.empty()) table.insert_or_assign(key, value);
+  } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
+    toml::array array;
+    for (const auto& text : value) array.push_back(text);
+    if (!array.empty()) table.insert_or_assign(key, std::move(array));
+  } else {
+    table.insert_or_assign(key, value);
+  }
+}
+
+template <class T>
+void write(toml::table& table, const std::string& key, const std::optional<T>& value) {
+  if (value) write(table, key, *value);
+}
+
+}  // namespace
+
+// CLI11 gives hidden options no name.
+std::string name_of(const CLI::Option& option) {
+  return option.get_lnames().empty() ? option.get_name() : "--" + option.get_lnames().front();
+}
+
+Options::Options(CLI::App& program, const std::string& name, const std::string& description)
+    : app_(program.add_subcommand(name, description)) {}
+
+template <class T>
+Options::Entry& Options::keep(CLI::Option* option, const std::string& key, T& value) {
+  Entry& entry = entries_.emplace_back();
+  entry.option = option;
+  entry.write = [key, &value](toml::table& table) { program::write(table, key, value); };
+  if (!group_.empty()) entry.needs.push_back(group_);
+  return entry;
+}
+
+template <class T>
+Options::Entry& Options::add(const std::string& name, T& value, const std::string& description) {
+  CLI::Option* option = app_->add_option(name, value, description)->capture_default_str();
+  // CLI11 2.1 takes an empty text for no value or zero, and brings counts that are negative or too large into range.
+  if constexpr (std::is_same_v<T, std::uint64_t> || std::is_same_v<T, std::optional<std::uint64_t>>) option->check(&count_fault);
+  if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>) option->check(&number_fault);
+  return keep(option, name.substr(2), value);
+}
+
+template <class T>
+Options::Entry& Options::add_positional(const std::string& name, T& value, const std::string& description) {
+  return keep(app_->add_option(name, value, description), CLI::detail::to_lower(name), value);
+}
+
+template Options::Entry& Options::add(const std::string&, int&, const std::string&);
+template Options::Entry& Options::add(const std::string&, double&, const std::string&);
+template Options::Entry& Options::add(const std::string&, std::uint64_t&, const std::string&);
+template Options::Entry& Options::add(const std::string&, std::string&, const std::string&);
+template Options::Entry& Options::add(const std::string&, std::optional<double>&, const std::string&);
+template Options::Entry& Options::add(const std::string&, std::optional<std::uint64_t>&, const std::string&);
+template Options::Entry& Options::add(const std::string&, std::optional<std::string>&, const std::string&);
+template Options::Entry& Options::add(const std::string&, std::vector<std::string>&, const std::string&);
+template Options::Entry& Options::add_positional(const std::string&, std::string&, const std::string&);
+template Options::Entry& Options::add_positional(const std::string&, std::vector<std::string>&, const std::string&);
+
+Options::Entry& Options::add_flag(const std::string& name, bool& value, const std::string& description) {
+  return keep(app_->add_flag(name, value, description), name.substr(2), value);
+}
+
+void Options::add_unsaved(const std::string& name, std::string& value, const std::string& description) {
+  app_->add_option(name, value, description);
+}
+
+void Options::add_unsaved(const std::string& name, bool& value, const std::string& description) {
+  app_->add_flag(name, value, description);
+}
+
+void Options::add_synonym_of_default(const std::string& name, const std::string& description) {
+  app_->add_flag_function(name, [](std::int64_t) {}, description)->disable_flag_override();
+}
 
 Options::Entry& Options::Entry::only_for(std::vector<Scope> scopes) {
   needs.push_back(std::move(scopes));
@@ -69,33 +169,6 @@ toml::table Options::resolved() const {
   for (const Entry& entry : entries_)
     if (entry.fault(kinds_).empty()) entry.write(table);
   return table;
-}
-
-std::string Options::count_fault(const std::string& text) {
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool sound = error == std::errc() && end == text.data() + text.size();
-  return sound ? "" : "'" + text + "' is not allowed: a whole number from 0 to 18446744073709551615 is needed";
-}
-
-std::string Options::number_fault(const std::string& text) { return text.empty() ? "'' is not allowed: a number is needed" : ""; }
-
-void Options::write(toml::table& table, const std::string& key, std::uint64_t value) {
-  // TOML's integers have a sign; a text is read back just the same.
-  if (value <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
-    table.insert_or_assign(key, static_cast<std::int64_t>(value));
-  else
-    table.insert_or_assign(key, std::to_string(value));
-}
-
-void Options::write(toml::table& table, const std::string& key, const std::string& value) {
-  if (!value.empty()) table.insert_or_assign(key, value);
-}
-
-void Options::write(toml::table& table, const std::string& key, const std::vector<std::string>& values) {
-  toml::array array;
-  for (const auto& value : values) array.push_back(value);
-  if (!array.empty()) table.insert_or_assign(key, std::move(array));
 }
 
 }  // namespace lanescape::program

@@ -1,16 +1,18 @@
 #pragma once
 
 #include <toml++/toml.h>
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <deque>
 #include <functional>
 #include <initializer_list>
-#include <optional>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
 
 namespace lanescape::program {
 
@@ -41,9 +43,7 @@ inline RunKinds joined(std::initializer_list<RunKinds> parts) {
 }
 
 // "--name", or FILE of a positional one. CLI11 gives hidden options no name.
-inline std::string name_of(const CLI::Option& option) {
-  return option.get_lnames().empty() ? option.get_name() : "--" + option.get_lnames().front();
-}
+std::string name_of(const CLI::Option& option);
 
 // Kinds that several subcommands know.
 inline constexpr Scope runs_with_a_folder{"folder", "runs with --out"};
@@ -73,24 +73,21 @@ class Options {
     std::string fault(const RunKinds& kinds) const;
   };
 
-  explicit Options(CLI::App& app) : app_(&app) {}
+  // Adds the subcommand to the program.
+  Options(CLI::App& program, const std::string& name, const std::string& description);
 
+  // T is a number, a text, std::optional of one of these, or a list of texts; the instances are in options.cpp.
   template <class T>
-  Entry& add(const std::string& name, T& value, const std::string& description) {
-    CLI::Option* option = app_->add_option(name, value, description)->capture_default_str();
-    // CLI11 2.1 takes an empty text for no value or zero, and brings counts that are negative or too large into range.
-    if constexpr (std::is_same_v<T, std::uint64_t> || std::is_same_v<T, std::optional<std::uint64_t>>) option->check(&count_fault);
-    if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>) option->check(&number_fault);
-    return keep(option, name.substr(2), value);
-  }
+  Entry& add(const std::string& name, T& value, const std::string& description);
   // FILE or FILES, under the same name in small letters in the run file.
   template <class T>
-  Entry& add_positional(const std::string& name, T& value, const std::string& description) {
-    return keep(app_->add_option(name, value, description), CLI::detail::to_lower(name), value);
-  }
-  Entry& add_flag(const std::string& name, bool& value, const std::string& description) {
-    return keep(app_->add_flag(name, value, description), name.substr(2), value);
-  }
+  Entry& add_positional(const std::string& name, T& value, const std::string& description);
+  Entry& add_flag(const std::string& name, bool& value, const std::string& description);
+  // Options that are no part of the resolved run file.
+  void add_unsaved(const std::string& name, std::string& value, const std::string& description);
+  void add_unsaved(const std::string& name, bool& value, const std::string& description);
+  // A flag that names what is done without it too.
+  void add_synonym_of_default(const std::string& name, const std::string& description);
 
   // The option of that name, which has been added.
   Entry& at(std::string_view name);
@@ -107,30 +104,7 @@ class Options {
 
  private:
   template <class T>
-  Entry& keep(CLI::Option* option, const std::string& key, T& value) {
-    Entry& entry = entries_.emplace_back();
-    entry.option = option;
-    entry.write = [key, &value](toml::table& table) { Options::write(table, key, value); };
-    if (!group_.empty()) entry.needs.push_back(group_);
-    return entry;
-  }
-
-  // What is wrong with the text of a number; empty where nothing is, as CLI11 wants it.
-  static std::string count_fault(const std::string& text);
-  static std::string number_fault(const std::string& text);
-
-  static void write(toml::table& table, const std::string& key, bool value) { table.insert_or_assign(key, value); }
-  static void write(toml::table& table, const std::string& key, double value) { table.insert_or_assign(key, value); }
-  static void write(toml::table& table, const std::string& key, int value) {
-    table.insert_or_assign(key, static_cast<std::int64_t>(value));
-  }
-  static void write(toml::table& table, const std::string& key, std::uint64_t value);
-  static void write(toml::table& table, const std::string& key, const std::string& value);
-  static void write(toml::table& table, const std::string& key, const std::vector<std::string>& values);
-  template <class T>
-  static void write(toml::table& table, const std::string& key, const std::optional<T>& value) {
-    if (value) write(table, key, *value);
-  }
+  Entry& keep(CLI::Option* option, const std::string& key, T& value);
 
   CLI::App* app_;
   std::deque<Entry> entries_;

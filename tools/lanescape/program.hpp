@@ -20,6 +20,13 @@ namespace lanescape::program {
 
 using Json = nlohmann::ordered_json;
 
+}  // namespace lanescape::program
+
+// Compiled once, in json.cpp.
+extern template class nlohmann::basic_json<nlohmann::ordered_map>;
+
+namespace lanescape::program {
+
 // Exit statuses, the contract with other people's scripts.
 enum ExitStatus {
   done = 0,

@@ -27,11 +27,10 @@ void CommonOptions::add_to(Options& options) {
   options.add("--seed", seed, "seed of all random numbers");
   options.add("--threads", threads, "threads; default OMP_NUM_THREADS, else all");
   options.add("--isa", isa, "instruction set: auto, sse2, avx2, avx512; wins over LANESCAPE_ISA");
-  CLI::App& app = options.app();
-  app.add_flag("--quiet", quiet, "no progress bar, no messages");
-  app.add_option("--config", config, "run file (TOML) with any of these options; flags win");
-  app.add_option("--out", out, "folder for all files; without it none is written");
-  app.add_option("--resume", resume, "folder of an interrupted run to continue");
+  options.add_unsaved("--quiet", quiet, "no progress bar, no messages");
+  options.add_unsaved("--config", config, "run file (TOML) with any of these options; flags win");
+  options.add_unsaved("--out", out, "folder for all files; without it none is written");
+  options.add_unsaved("--resume", resume, "folder of an interrupted run to continue");
 }
 
 Isa CommonOptions::resolve_isa() {
