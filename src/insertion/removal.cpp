@@ -29,6 +29,11 @@ std::optional<Removal> choose_removal(const PairModel& model, const Configuratio
   if (there.empty()) return std::nullopt;
   ProbeField field(model, fluid, species, kernel_table(isa));
   const auto energy_of = [&](std::size_t i) {
+    if (model.form->has_diameters) {
+      ProbeField own(model, fluid, species, kernel_table(isa), fluid.diameters[i]);
+      own.remove(fluid.position(i), species);
+      return own.energy(fluid.position(i));
+    }
     field.remove(fluid.position(i), species);
     const double falls_by = field.energy(fluid.position(i));
     field.insert(fluid.position(i), species);

@@ -25,7 +25,8 @@ struct Removal {
   double energy = 0.0;       // what the fluid's falls by [epsilon]
 };
 
-// Which particle of a species to take out of a region, or the box; nothing where there is none. `number` tells draws apart. O(N).
+// Which particle of a species to take out of a region, or the box; nothing where there is none. `number` tells draws apart. O(N);
+// by least disturbance among particles with diameters O(N^2).
 std::optional<Removal> choose_removal(const PairModel& model, const Configuration& fluid, int species, RemovalRule rule,
                                       const std::optional<Region>& region, double energy, const CounterRandom& random,
                                       std::uint64_t number, Isa isa);

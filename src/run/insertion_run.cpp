@@ -26,7 +26,7 @@ void insert(InsertionRunResult& run, const PairModel& model, const InsertionRunO
             Isa isa, RunMonitor& monitor) {
   constexpr std::uint64_t batch = 64;  // insertions between two looks at the monitor
   const double mass = model.species[static_cast<std::size_t>(options.species)].mass;
-  ProbeField field(model, run.fluid, options.species, kernel_table(isa));
+  ProbeField field(model, run.fluid, options.species, kernel_table(isa), options.diameter);
   InsertionHistory history;
   const CounterRandom random(insertion.seed, RandomStream::insertion);
   for (std::uint64_t done = 0; done < options.count && !run.interrupted;) {
@@ -41,6 +41,7 @@ void insert(InsertionRunResult& run, const PairModel& model, const InsertionRunO
         run.velocities.push_back(maxwellian_velocity(random, run.insertions.size(), *options.temperature, mass));
       run.insertions.push_back(one);
       run.fluid.species.push_back(options.species);
+      if (model.form->has_diameters) run.fluid.diameters.push_back(options.diameter);
       run.fluid.positions.insert(run.fluid.positions.end(), one.position.begin(), one.position.end());
     }
     done += wanted;
@@ -62,6 +63,7 @@ void remove(InsertionRunResult& run, const PairModel& model, const InsertionRunO
     const auto at = static_cast<std::ptrdiff_t>(removal->particle);
     run.removals.push_back({run.fluid.position(removal->particle), removal->energy});
     run.fluid.species.erase(run.fluid.species.begin() + at);
+    if (model.form->has_diameters) run.fluid.diameters.erase(run.fluid.diameters.begin() + at);
     run.fluid.positions.erase(run.fluid.positions.begin() + 3 * at, run.fluid.positions.begin() + 3 * at + 3);
   }
 }
@@ -72,11 +74,13 @@ void InsertionRunOptions::check(const PairModel& model, const Configuration& flu
   if (fluid.size() == 0) throw_bad_input("insertion into an empty fluid is not allowed: at least one particle is needed");
   if (temperature && (!(*temperature > 0.0) || !std::isfinite(*temperature)))
     throw_bad_input(fmt::format("temperature {} is not allowed: it must be finite and above 0", *temperature));
+  if (!(diameter > 0.0) || !std::isfinite(diameter))
+    throw_bad_input(fmt::format("diameter {} is not allowed: it must be finite and above 0", diameter));
   InsertionOptions checked = insertion;
   if (mean_target) checked.target = mean_excess_energy(model, fluid, available_isas().front());
   checked.check(fluid.box);
-  ProbeField(model, {fluid.box, {}, {}}, species,
-             kernel_table(available_isas().front()));  // throws what box and model do not allow
+  ProbeField(model, {fluid.box, {}, {}}, species, kernel_table(available_isas().front()),
+             diameter);  // throws what box and model do not allow
 }
 
 InsertionRunResult run_insertion(const PairModel& model, Configuration fluid, const InsertionRunOptions& options, Isa isa,

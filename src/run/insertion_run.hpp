@@ -22,6 +22,7 @@ struct InsertionRunOptions {
   std::uint64_t removals = 0;  // particles to remove afterwards, of the same species and region
   RemovalRule removal = RemovalRule::random;
   int species = 0;                    // of what is inserted or removed
+  double diameter = 1.0;              // of what is inserted, if the model's particles have diameters [sigma]
   std::optional<double> temperature;  // of Maxwellian velocities for inserted particles
   int threads = 1;
 

@@ -3,7 +3,7 @@
 import csv
 import unittest
 
-from cli_support import DATA, GROWTH, SCAN, TAIL, ProgramTest, frame, one_object, without_seconds
+from cli_support import DATA, FLUID, GROWTH, SCAN, TAIL, ProgramTest, frame, one_object, without_seconds
 
 
 class Insertions(ProgramTest):
@@ -102,6 +102,29 @@ class Insertions(ProgramTest):
         for row in run["densification"]:
             self.assertAlmostEqual(row["energy"], 1.5 * row["temperature"] + row["excess_energy"], delta=1e-9)
             self.assertLess(abs(row["drift"]), 0.1)
+
+
+class Diameters(ProgramTest):
+    def test_particles_with_diameters_are_inserted_and_removed(self):
+        run = self.done("endpoints", "--model", "polydisperse", *FLUID, "--pairs", "1", "--out", self.folder / "ends")
+        fluid = self.folder / "ends" / run["pairs"][0]["file"]
+        poly = ("--model", "polydisperse")
+        before = self.done("energy", fluid, *poly)["energy"]
+        out = self.folder / "in"
+        run = self.done("insert", fluid, *poly, "--energy", "12", "--count", "2", "--diameter", "0.6", "--out", out)
+        self.assertEqual(run["outcome"], "done")
+        after = self.done("energy", out / "inserted.extxyz", *poly)["energy"]
+        self.assertAlmostEqual(after - before, sum(one["energy"] for one in run["insertions"]), delta=1e-9 * abs(after))
+        taken = self.folder / "out"
+        run = self.done("insert", out / "inserted.extxyz", *poly, "--energy", "12", "--count", "0", "--remove", "1",
+                        "--removal", "least-disturbance", "--out", taken)
+        left = self.done("energy", taken / "inserted.extxyz", *poly)["energy"]
+        self.assertAlmostEqual(after - left, run["removals"][0]["energy"], delta=1e-9 * abs(after))
+
+    def test_a_diameter_is_refused_where_there_is_none(self):
+        self.refused("insert", DATA / "ar_dilute_63.extxyz", "--model", "lennard-jones", "--diameter", "0.9",
+                     says=("--diameter is not allowed with model lennard-jones", "polydisperse"))
+        self.refused("insert", "--scan", "--model", "polydisperse", says=("--scan is not allowed with model polydisperse",))
 
 
 if __name__ == "__main__":

@@ -19,6 +19,7 @@ constexpr Scope made_fluids{"fluid", "fluids that are made, without FILE"}, remo
     holes{"holes", "--holes"}, regions{"region", "--region"},
     searches_by_method{"search", "FILE, --densify and --holes; --methods is for scans"},
     searches_by_tolerance{"tolerance", "FILE, --densify, --holes, and scans without --tolerances"},
+    own_diameters{"diameters", "models whose particles have diameters, such as polydisperse"},
     descents{"descent", "method descent"}, screened_starts{"screened", "method screened"};
 
 RunKinds kinds_of(const InsertState& state) {
@@ -67,6 +68,7 @@ InsertionRunOptions run_options(const InsertState& state, const PairModel& model
   options.removals = state.remove;
   options.removal = parse_removal_rule(state.removal);
   options.species = state.setup.species_index(model);
+  options.diameter = state.diameter;
   options.temperature = state.temperature;
   options.threads = state.common.threads;
   return options;
@@ -116,10 +118,14 @@ Json run_insert(InsertState& state, Options& options, int& status) {
   state.common.check();
   const Isa isa = state.common.resolve_isa();
   const PairModel model = state.system.resolve_pair_model("insert");
-  if (model.form->has_diameters)
-    throw_bad_input(fmt::format("insert: model {} is not allowed: its particles have diameters of their own", model.name));
+  if (model.form->has_diameters && (state.scan || state.densify))
+    throw_bad_input(
+        fmt::format("{} is not allowed with model {}: its particles have diameters of their own, insertion into FILE is there",
+                    state.scan ? "--scan" : "--densify", model.name));
   if (state.scan && state.densify) throw_bad_input("--scan and --densify are not allowed together");
-  options.settle(joined({state.system.kinds(model, state.file.empty()), kinds_of(state)}));
+  options.settle(joined({state.system.kinds(model, state.file.empty()),
+                         kinds_of(state),
+                         {kind_if(model.form->has_diameters, own_diameters, "", fmt::format("with model {}", model.name))}}));
   Json result = state.scan      ? run_scan(state, options, model, isa, status)
                 : state.densify ? run_growth(state, options, model, isa, status)
                                 : run_into_file(state, options, model, isa, status);
@@ -174,6 +180,9 @@ Subcommand add_insert(CLI::App& app) {
   options->add("--count", state->count, "particles to insert; of --scan, places per configuration and combination")
       .only_for({into_file, scans});
   add_search_options(*options, *state);
+  options->add("--diameter", state->diameter, "of inserted particles, in models that give each its own [sigma]")
+      .only_for({into_file})
+      .only_for({own_diameters});
   options->add("--remove", state->remove, "particles of the species to take out of the region afterwards").only_for({into_file});
   options->add("--removal", state->removal, "random, or least-disturbance: whose energy is nearest to --energy")
       .only_for({into_file})

@@ -14,6 +14,7 @@ struct InsertState {
   std::uint64_t count = 1, remove = 0;
   std::string removal = "random";
   std::optional<double> temperature, density;
+  double diameter = 1.0;
   std::uint64_t particles = 1000, equilibration_steps = 10'000;
   double time_step = 0.002;
   std::optional<double> densify;
