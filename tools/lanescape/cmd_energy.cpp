@@ -29,7 +29,7 @@ EnergyResult by_kernels(const PairModel& model, const Configuration& configurati
   AlignedArray gradient(layout.dimension(), 0.0);
   const AlignedArray positions = layout.to_slots(configuration.positions);
   const auto with_stress = interaction.energy_and_stress(positions, gradient);
-  // The stress is in double precision at any rate; all else is what a run would see.
+  // The stress is always in double precision; all else has the precision of a run.
   const auto e = options.precision == Precision::mixed ? interaction.energy_and_gradient(positions, gradient) : with_stress;
   return {e.energy, e.virial, with_stress.virial_tensor, layout.to_user(gradient)};
 }
@@ -39,7 +39,7 @@ EnergyResult by_reference(const PairModel& model, const Configuration& configura
   return {e.energy, e.virial, e.virial_tensor, e.gradient};
 }
 
-// Without the places of states that a species has not.
+// One entry for each state that the species has.
 std::vector<double> states_of(const StateMixtureModel& model, int species, const double* probabilities) {
   return {probabilities, probabilities + model.states_of(static_cast<std::size_t>(species))};
 }

@@ -26,7 +26,7 @@ RunKinds kinds_of(const InsertState& state) {
   const RunKind mode = state.scan      ? RunKind{scans, "with --scan"}
                        : state.densify ? RunKind{growth, "with --densify"}
                                        : RunKind{into_file, "without --scan and --densify"};
-  // Searches besides those of a scan's own combinations.
+  // Whether there are searches besides those of a scan's combinations.
   const bool others = !state.scan || state.holes > 0 || state.traced_searches > 0;
   const auto uses = [&](const char* method) {
     bool used = others && state.setup.method == method;

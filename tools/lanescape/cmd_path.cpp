@@ -17,7 +17,7 @@ namespace lanescape::program {
 namespace {
 
 constexpr Scope made_pairs{"pairs", "runs that make their end points, without --pair"};
-// What the steps of a method know.
+// Options that depend on the method.
 constexpr Scope direct_steps_of_a_length{"direct steps", "contour, escape and avoidance: the steps of away end at contacts"};
 constexpr Scope collision_avoidance{"method", "method avoidance"};
 
@@ -57,7 +57,7 @@ struct PathState {
   }
 };
 
-// Scales the radii of both frames by one factor, where a file's rounding makes some overlap.
+// Scales the radii of both frames by one factor if the file's rounding makes spheres overlap.
 void scale_radii(ConfigurationPair& pair, double tolerance, const std::string& where) {
   try {
     const double factor = std::min(rounding_overlap_factor(pair.start, tolerance), rounding_overlap_factor(pair.finish, tolerance));
@@ -82,7 +82,7 @@ ConfigurationPair read_pair(const std::filesystem::path& file, const Model& mode
   return pair;
 }
 
-// What scale_radii() did when the pair was kept.
+// The factor of scale_radii() when the pair was kept.
 double kept_radius_factor(const std::filesystem::path& file, const Model& model) {
   const auto info = read_frames(file, mixture_of(model)).front().info;
   const auto found = info.find(radius_factor_key);
@@ -185,7 +185,7 @@ void write_files(OutputFolder& folder, const std::vector<PathResult>& paths, con
   }
 }
 
-// What goes into the searches. Read and checked before anything is written; pairs of an interrupted run come from its folder.
+// The input of the searches, read and checked before anything is written. Pairs of an interrupted run come from its folder.
 struct PathInput {
   std::vector<ConfigurationPair> pairs;  // from files
   Configuration start;                   // without files: what the end points are made from
@@ -212,7 +212,7 @@ bool add_paths(Json& json, const std::vector<PathResult>& paths, const PathMetho
   return std::all_of(paths.begin(), paths.end(), [](const PathResult& path) { return path.outcome == Outcome::reached; });
 }
 
-// The pairs between which paths are searched: made, kept from an interrupted run, or those of files, of which copies are kept.
+// The pairs to find paths between: made here, kept from an interrupted run, or from files, of which the folder keeps copies.
 struct Ends {
   std::vector<ConfigurationPair> pairs;
   Json json;  // of end points made here
@@ -229,7 +229,7 @@ Ends take_ends(const PathState& state, const Model& model, PathInput&& input, Pr
   return {std::move(input.pairs), Json(), true};
 }
 
-// What stands beside the paths.
+// Adds the model, its images or radii, instruction set and precision.
 void add_system(Json& json, const PathState& state, const Model& model, const std::vector<ConfigurationPair>& pairs, Isa isa) {
   json["model"] = mixture_of(model).name;
   if (!is_hard(model))
@@ -244,7 +244,7 @@ void add_system(Json& json, const PathState& state, const Model& model, const st
   if (traits_of(model).has_precision) json["precision"] = to_string(state.system.resolve_precision());
 }
 
-// Everything the run needs, checked before there is a folder.
+// Resolves and checks everything the run needs, before there is a folder.
 PathInput prepare(PathState& state, Options& options, const Model& model, const PathRunOptions& path_options, Isa isa) {
   options.settle(state.kinds(model, *path_options.method));
   path_options.check();

@@ -57,7 +57,7 @@ Json to_json(const std::vector<Deviation>& deviations, const std::vector<Isa>& i
 
 Json run_verify(VerifyState& state, Options& options, int& status) {
   state.common.check();
-  // One instruction set, where a flag or LANESCAPE_ISA names it, or all that are here.
+  // The instruction set that a flag or LANESCAPE_ISA names, or all available ones.
   const bool forced = forced_isa(state.common.isa).has_value();
   const std::vector<Isa> isas = forced ? std::vector{state.common.resolve_isa()} : available_isas();
   const Model model = state.system.resolve();
@@ -66,7 +66,7 @@ Json run_verify(VerifyState& state, Options& options, int& status) {
   std::vector<PairCase> cases = pair_cases();
   add_files(cases, state.files, state.system.resolve_pair_model("verify"));
   OutputFolder folder = open_folder(state.common);
-  std::optional<TemporaryFile> junit;  // made first: a place that cannot be written to is bad input
+  std::optional<TemporaryFile> junit;  // made first: a path that cannot be written is bad input
   if (!state.junit.empty()) junit.emplace(state.junit);
 
   std::vector<Deviation> deviations;

@@ -139,7 +139,7 @@ void EndPointSetup::settle(const Model& model) {
 }
 
 Configuration EndPointSetup::start(const Model& model, const CommonOptions& common, Isa isa) {
-  resolve(model, particles_, common.seed);  // refuses values out of range before there is work to wait for
+  resolve(model, particles_, common.seed);  // refuses values out of range before any work
   const auto soft_start = [&](const auto& soft) {
     return start_file_.empty() ? fcc_start(soft, particles_, density_.value_or(1.2), common.seed)
                                : read_first_frame(start_file_, model);

@@ -12,10 +12,10 @@ namespace lanescape::program {
 // The protocol of either family.
 using EndPointProtocol = std::variant<EndPointOptions, HardEndPointOptions>;
 
-// Largest relative depth up to which overlaps in a file are taken for its rounding.
+// Overlaps in a file of at most this relative depth count as rounding.
 inline constexpr double default_overlap_tolerance = 1e-7;
 
-// The options from which end points are made, for `endpoints` and for `path` without --pair.
+// The options that end points are made with, for `endpoints` and for `path` without --pair.
 class EndPointSetup {
  public:
   void add_to(Options& options);
@@ -25,16 +25,16 @@ class EndPointSetup {
   RunKinds kinds(bool has_pair_files) const;
   bool generates_start() const { return start_file_.empty(); }
 
-  // A pair's distance where --distance is not given: 108 at N = 108, else 10 sqrt(N) [sigma].
+  // The default of --distance: 108 at N = 108, else 10 sqrt(N) [sigma].
   static double default_distance(std::size_t particles);
-  // What to run; throws Error(bad_input) for anything out of range.
+  // The protocol to run; throws Error(bad_input) for options out of range.
   EndPointProtocol resolve(const Model& model, std::size_t particles, std::uint64_t seed) const;
-  // Fills in the state point where it was not given, so that the resolved run file has it.
+  // Fills in a state point that was not given, so that the resolved run file has it.
   void settle(const Model& model);
-  // The configuration that molecular dynamics starts from: --start FILE; else an fcc crystal, or of dense hard spheres what
-  // --start-method makes of one. Remembers the radius factor of a file.
+  // The initial configuration: --start FILE, else an fcc crystal; for dense hard spheres the result of --start-method. Remembers
+  // the radius factor of a file.
   Configuration start(const Model& model, const CommonOptions& common, Isa isa);
-  // By which the radii of --start FILE were scaled; nothing without such a file.
+  // The factor that scaled the radii of --start FILE; empty without such a file.
   const std::optional<double>& radius_factor() const { return radius_factor_; }
   double overlap_tolerance() const { return overlap_tolerance_; }
 
@@ -51,7 +51,7 @@ class EndPointSetup {
   double overlap_tolerance_ = default_overlap_tolerance;
   std::string start_file_, distance_species_;
   bool quick_ = false;
-  // Counts and tolerances, only where they are given: the rest follows from --quick.
+  // Counts and tolerances that were given; --quick decides the others.
   std::optional<std::uint64_t> pairs_, melt_steps_, cooling_steps_, rescale_interval_, check_steps_, check_interval_, max_checks_,
       settle_steps_, between_steps_, max_pair_steps_, equilibration_collisions_, between_collisions_, max_pair_collisions_;
   std::optional<double> time_step_, melt_temperature_, check_tolerance_;

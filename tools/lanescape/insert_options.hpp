@@ -10,7 +10,7 @@
 
 namespace lanescape::program {
 
-// How places are searched for, the same for single insertions, a scan and a growing density.
+// Options of the searches, the same for insertion into a file, scans and growth.
 struct InsertionSetup {
   std::string energy = "mean";
   double tolerance = 0.01, traverse_step = 0.6, clear_energy = 60.0;
@@ -20,11 +20,11 @@ struct InsertionSetup {
   std::uint64_t most_trials = 10'000;
 
   void add_to(Options& options);
-  // All but the target, and the region, which needs a box to be checked in.
+  // Everything but the target. The region is checked later, in its box.
   InsertionOptions resolve(std::uint64_t seed) const;
   // Index of --species, by default the first.
   int species_index(const Mixture& mixture) const;
-  // The number of --energy; nothing for one of the allowed words.
+  // The number of --energy; empty for one of the allowed words.
   std::optional<double> number(const std::vector<std::string_view>& words) const;
 };
 

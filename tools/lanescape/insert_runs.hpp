@@ -5,7 +5,7 @@
 
 namespace lanescape::program {
 
-// The options of `insert`, all three kinds of it.
+// The options of all three modes of `insert`.
 struct InsertState {
   CommonOptions common;
   SystemOptions system;
@@ -26,7 +26,7 @@ struct InsertState {
   std::uint64_t configurations = 5, between_steps = 2000, widom_probes = 0, holes = 0, traced_searches = 0;
 };
 
-// What --densify and --scan do; the JSON for stdout.
+// Run --densify and --scan; return the JSON for stdout.
 Json run_growth(InsertState& state, const Options& options, const PairModel& model, Isa isa, int& status);
 Json run_scan(InsertState& state, const Options& options, const PairModel& model, Isa isa, int& status);
 

@@ -14,7 +14,7 @@ namespace {
 using namespace lanescape;
 using namespace lanescape::program;
 
-// One line, whatever the message was made of.
+// One line: line breaks in the message become blanks.
 void complain(std::string message) {
   for (char& c : message)
     if (c == '\n' || c == '\r') c = ' ';

@@ -31,7 +31,7 @@ void write(toml::table& table, const std::string& key, const T& value) {
   if constexpr (std::is_same_v<T, int>) {
     table.insert_or_assign(key, static_cast<std::int64_t>(value));
   } else if constexpr (std::is_same_v<T, std::uint64_t>) {
-    // TOML's integers have a sign; a text is read back just the same.
+    // TOML's integers have a sign; a text reads back to the same number.
     if (value <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
       table.insert_or_assign(key, static_cast<std::int64_t>(value));
     else

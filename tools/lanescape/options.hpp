@@ -23,7 +23,7 @@ struct Scope {
   std::string_view name;  // ends the message "it is for ..."
 };
 
-// What a run is on one axis, and the words of a message for that: "with --scan", "without --out".
+// The kind of a run on one axis, and the words of a message for it: "with --scan", "without --out".
 struct RunKind {
   Scope scope;
   std::string because;
@@ -35,7 +35,7 @@ inline RunKind kind_if(bool holds, const Scope& scope, std::string if_so, std::s
   return holds ? RunKind{scope, std::move(if_so)} : RunKind{{scope.axis, ""}, std::move(if_not)};
 }
 
-// What a run is, as its parts say it.
+// The kinds of a run from its parts.
 inline RunKinds joined(std::initializer_list<RunKinds> parts) {
   RunKinds all;
   for (const RunKinds& part : parts) all.insert(all.end(), part.begin(), part.end());
@@ -89,14 +89,14 @@ class Options {
   // A flag that names what is done without it too.
   void add_synonym_of_default(const std::string& name, const std::string& description);
 
-  // The option of that name, which has been added.
+  // The added option with this name.
   Entry& at(std::string_view name);
   // All options added from now on are for these kinds of run only, until end_group().
   void begin_group(std::vector<Scope> scopes) { group_ = std::move(scopes); }
   void end_group() { group_.clear(); }
 
-  // Says what the run is. Throws Error(bad_input) if an option was given, on the command line or in a run file, that has no effect
-  // in it.
+  // Sets the kinds of the run. Throws Error(bad_input) if an option was given, on the command line or in a run file, that has no
+  // effect in it.
   void settle(RunKinds kinds);
   // The options that have an effect in the run, with their final values.
   toml::table resolved() const;

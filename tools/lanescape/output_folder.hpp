@@ -9,13 +9,14 @@
 
 namespace lanescape::program {
 
-// The folder of --out or --resume. Nothing is left behind by a run that turns out to have bad input: until keep() is called,
-// the destructor removes what this run has made, unless there are checkpoints to resume from.
+// The folder of --out or --resume. A run with bad input leaves nothing behind: until keep() is called, the destructor removes what
+// this run has made, unless there are checkpoints to resume from.
 class OutputFolder {
  public:
   // No folder: every other call does nothing.
   OutputFolder() = default;
-  // Made where missing and proved writable; throws Error(bad_input). A folder that holds another run is refused unless resumed.
+  // Makes a missing folder and checks that it is writable; throws Error(bad_input). Refuses a folder with another run unless
+  // resumed.
   OutputFolder(std::filesystem::path path, bool resume);
   OutputFolder(OutputFolder&& other) noexcept;
   OutputFolder& operator=(OutputFolder&& other) noexcept;

@@ -44,7 +44,7 @@ struct CommonOptions {
   std::string config, out, resume;
 
   void add_to(Options& options);
-  // The instruction set asked for; `isa` then holds its name, so that the resolved run file does.
+  // The requested instruction set. Puts its name into `isa`, and so into the resolved run file.
   Isa resolve_isa();
   // Refuses a thread count below 1.
   void check() const;
@@ -60,28 +60,28 @@ struct SystemOptions {
   std::optional<std::string> images, truncation, composition, precision;
 
   void add_to(Options& options);
-  // Throws Error(bad_input) for values that the model does not allow. Options::settle() refuses those that it has no use for.
+  // Throws Error(bad_input) for values that the model does not allow. Options::settle() refuses options without an effect.
   Model resolve() const;
   // The family of the resolved model, whether it has a name or a file, and whether the run generates its particles.
   RunKinds kinds(const Model& resolved, bool generates_start) const;
   // Of soft models.
   Precision resolve_precision() const;
-  // Refuses mixed precision in a box where it is not to be had.
+  // Refuses mixed precision in a box that has no neighbour list.
   void check_precision_in(const Model& model, const Box& box, double skin = default_skin) const;
-  // For a subcommand that knows Lennard-Jones mixtures only, which the message for others names.
+  // The model as one of pair potentials; the message that refuses others names the subcommand.
   PairModel resolve_pair_model(const char* subcommand) const;
 };
 
-// The first frame of a file of soft particles, all of which must be sound, without overlaps; throws Error(bad_input) naming the
-// file.
+// The first frame of a file of soft particles. Throws Error(bad_input) naming the file if any frame is malformed or the first one
+// has overlaps.
 Configuration read_first_frame(const std::string& file, const Model& model);
-// The first frame of a file of hard spheres, all of which must be sound, with its radii as they are: with any species, or the
-// model's.
+// The first frame of a file of hard spheres with its radii, of any species or of the model's. Throws Error(bad_input) if any frame
+// is malformed.
 Configuration read_hard_frame(const std::string& file);
 Configuration read_hard_frame(const std::string& file, const HardSphereModel& model);
-// remove_rounding_overlaps() of interaction/ with the file's name before what it says.
+// remove_rounding_overlaps() of interaction/, whose messages then start with the file's name.
 double remove_rounding_overlaps_in(const std::string& file, Configuration& configuration, double tolerance);
-// check_soft_separations() of interaction/ with the file's name before what it says.
+// check_soft_separations() of interaction/, whose messages then start with the file's name.
 void check_separations_in(const std::string& file, const Configuration& configuration, const Model& model);
 
 // Runs of the program: one subcommand each. `run` computes, returns the JSON for stdout and sets the exit status.
@@ -113,13 +113,13 @@ class TerminalMonitor final : public RunMonitor {
   std::unique_ptr<Bar> bar_;
 };
 
-// From now on SIGINT and SIGTERM ask running work to end at the next whole step; a second one kills.
+// SIGINT and SIGTERM then ask running work to end at the next whole step; a second signal kills.
 void install_signal_handlers();
 
 // The folder of --out or --resume, or none.
 OutputFolder open_folder(const CommonOptions& common);
 
-// The last act of a run: result.json and the resolved run file, where there is a folder, which is kept from here on.
+// Ends a run: writes result.json and the resolved run file if there is a folder, and keeps the folder.
 void write_result(OutputFolder& folder, const std::string& subcommand, const toml::table& resolved, const Json& result);
 
 // A line on stderr unless --quiet.

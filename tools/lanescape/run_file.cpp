@@ -13,7 +13,7 @@
 namespace lanescape::program {
 namespace {
 
-// The option of that name in a run file; null if there is none.
+// The option with this name in a run file; null if there is none.
 const CLI::Option* find_option(const CLI::App& subcommand, const std::string& key) {
   if (key == "help" || key == "config" || key == "resume") return nullptr;
   for (const CLI::Option* option : subcommand.get_options())
@@ -69,7 +69,7 @@ const CLI::App& parsed_subcommand(const std::vector<std::string>& arguments, CLI
 }
 
 toml::table read_run_file(const std::string& file, bool resume) {
-  // A folder would be read as an empty file.
+  // toml++ reads a folder as an empty file.
   if (std::filesystem::is_directory(file)) throw_bad_input(fmt::format("{}: it is a folder: a run file (TOML) is needed", file));
   try {
     return toml::parse_file(file);
@@ -81,7 +81,8 @@ toml::table read_run_file(const std::string& file, bool resume) {
   }
 }
 
-// A value of a run file that is the option's default anyway. Run files of earlier versions hold those of options without an effect.
+// Whether a value of a run file is the option's default. Run files of earlier versions also hold defaults of options without an
+// effect.
 bool is_default(const CLI::Option& option, const toml::node& node, const std::string& where) {
   if (node.is_array() || node.is_boolean() || option.get_default_str().empty()) return false;
   std::vector<std::string> value;
@@ -124,7 +125,7 @@ std::vector<std::string> with_run_file(const std::vector<std::string>& arguments
     if (option == nullptr) throw_bad_input(fmt::format("{} is not an option of {}, see lanescape {} --help", where, name, name));
     if (option->count() == 0 && !(resume && key == "out")) from_file.add(*option, node, where);
   }
-  // Positional arguments come first: elsewhere they would be taken for more values of the option before them.
+  // Positional arguments come first: CLI11 would take them for more values of the option before them.
   std::vector<std::string> extended = {arguments.front()};
   for (const auto* part : {&from_file.positionals, &from_file.added}) extended.insert(extended.end(), part->begin(), part->end());
   extended.insert(extended.end(), arguments.begin() + 1, arguments.end());

@@ -76,7 +76,7 @@ RunKinds SystemOptions::kinds(const Model& resolved, bool generates_start) const
 
 namespace {
 
-// A file of another kind than the name that is given with it says something else than was meant.
+// Refuses a model file of another kind than the name given with it.
 Model read_named(const std::string& file, const std::string& name) {
   Model model = read_model_file(file);
   if (name == "ucg" && !traits_of(model).has_states)
@@ -84,7 +84,7 @@ Model read_named(const std::string& file, const std::string& name) {
   return model;
 }
 
-// The options given are not for this model.
+// Refuses the options that were given, which this model does not have.
 void refuse_options(std::initializer_list<std::pair<const char*, bool>> given, const Mixture& model, const char* why) {
   for (const auto& [option, is_given] : given)
     if (is_given) throw_bad_input(fmt::format("{} is not allowed with model {}: {}", option, model.name, why));
@@ -167,7 +167,7 @@ void check_separations_in(const std::string& file, const Configuration& configur
 
 namespace {
 
-// Reads on to the end: a count that does not match its lines shows in the frames that follow.
+// Reads the whole file: a wrong particle count shows only in the frames that follow.
 Configuration first_of(ExtendedXyzReader& reader) {
   Configuration first = reader.next()->configuration;
   while (reader.next()) {
