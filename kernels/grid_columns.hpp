@@ -4,12 +4,12 @@
 #include "simd/simd.hpp"
 #include "views/grid.hpp"
 
-// Which cells of a grid a sphere reaches, column by column: how far along z it reaches into a column comes from one square root for
-// a vector of columns.
+// Which cells of a grid a sphere reaches, column by column. One square root per vector of columns gives how far the sphere reaches
+// along z in each.
 namespace lanescape::kernels::LANESCAPE_ISA {
 
-// What single precision may lose of a coordinate, and rounding of a cell: coordinates are up to the grid's extent, and the
-// difference of two loses 2^-23 of it when both are rounded.
+// Bound on what single precision loses of a coordinate and on the rounding of a cell. Coordinates are at most the grid's extent,
+// and the difference of two rounded ones is off by at most 2^-23 of it.
 inline double grid_margin(const GridShape& grid, double reach) noexcept {
   const auto length = [&](std::size_t axis) { return grid.edge[axis] * static_cast<double>(grid.cells[axis]); };
   return 3e-7 * (reach + length(0) + length(1) + length(2));
@@ -20,7 +20,7 @@ inline std::size_t cell_along(const GridShape& grid, std::size_t axis, double x)
   return cell > 0.0 ? static_cast<std::size_t>(cell < last ? cell : last) : 0;
 }
 
-// How far a position is from cells along an axis, squared.
+// The squared distance of a position from cells along an axis.
 inline Vector gap_squared(const GridShape& grid, std::size_t axis, double position, Vector cells) noexcept {
   const Vector edge = broadcast(grid.edge[axis]);
   const Vector beyond_face = broadcast(position - grid.low[axis]) - cells * edge;
@@ -28,8 +28,8 @@ inline Vector gap_squared(const GridShape& grid, std::size_t axis, double positi
   return gap * gap;
 }
 
-// Calls visit(column, low, high) for every column within reach of a position, x cell * cells[1] + y cell, with the first and the
-// last of its cells that are; ends where a visit returns false, and then returns false.
+// Calls visit(column, low, high) for every column within reach of a position; column is x cell * cells[1] + y cell, low and high
+// are its first and last cell within reach. Stops and returns false as soon as a visit returns false.
 template <class Visit>
 inline bool for_each_column(const GridShape& grid, const double* position, double reach, Visit visit) noexcept {
   const std::size_t first_x = cell_along(grid, 0, position[0] - reach), last_x = cell_along(grid, 0, position[0] + reach);

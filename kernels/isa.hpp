@@ -1,7 +1,7 @@
 #pragma once
 
-// Every kernel source is compiled once per instruction set with LANESCAPE_ISA set to one of the names below; the name is
-// also the namespace, so the objects of different instruction sets can be linked into one program.
+// Every kernel source is compiled once per instruction set, with LANESCAPE_ISA set to its name. The name is also the namespace, so
+// the objects of different instruction sets can be linked into one program.
 
 #ifndef LANESCAPE_ISA
 #define LANESCAPE_ISA generic

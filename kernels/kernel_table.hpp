@@ -11,13 +11,13 @@
 
 namespace lanescape::kernels {
 
-// All kernels of one instruction set: function pointers with the names of kernel_list.def, which documents them.
+// All kernels of one instruction set: function pointers with the names in kernel_list.def, which documents them.
 struct KernelTable {
   const char* name;
   std::size_t lanes;                // doubles per vector
   std::size_t sphere_pair_columns;  // see SpherePair
 
-  // Loops over pair potentials, by PairForm.
+  // Loops over pair potentials, indexed by PairForm.
   const PairKernels* pair[pair_form_count];
   const PairKernels& pair_kernels(PairForm form) const noexcept { return *pair[static_cast<std::size_t>(form)]; }
 

@@ -1,7 +1,7 @@
-// Which points lie within reach of one: all of the work of making a neighbour list but the sorting.
+// Which points lie within reach of a position: all the work of building a neighbour list except sorting.
 //
-// A column's points between two cells are one run, tested a vector at a time, in single precision: most runs are then one vector,
-// and whether one more follows is foreseen.
+// The points of a column between two cells are one contiguous run. Runs are tested a vector at a time in single precision: most
+// runs then fit one vector, and branch prediction foresees whether another follows.
 
 #include "grid_columns.hpp"
 #include "kernel_declarations.hpp"
@@ -15,7 +15,7 @@ struct Search {
   std::uint32_t self;
 };
 
-// Appends places of the points in [begin, end) within reach.
+// Appends offsets of the points in [begin, end) within reach.
 inline std::size_t search_run(const PointGrid& grid, const Search& search, std::uint32_t begin, std::uint32_t end,
                               std::uint32_t* out) noexcept {
   std::size_t found = 0;
@@ -24,7 +24,7 @@ inline std::size_t search_run(const PointGrid& grid, const Search& search, std::
                       dz = load_unaligned(grid.z + k) - search.z;
     std::uint32_t mask = bits(less(multiply_add(dz, dz, multiply_add(dy, dy, dx * dx)), search.reach_squared));
     if (end - k < float_lanes) mask &= (1U << (end - k)) - 1U;
-    if (search.self - k < float_lanes) mask &= ~(1U << (search.self - k));  // unsigned: below k is far above it
+    if (search.self - k < float_lanes) mask &= ~(1U << (search.self - k));  // unsigned: self < k gives a huge value
     found += compress_store_offsets(out + found, mask, k);
   }
   return found;

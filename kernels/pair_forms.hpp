@@ -5,8 +5,8 @@
 
 namespace lanescape::kernels {
 
-// The pair potentials that kernels exist for, a line each: its file in kernels/forms/, which says what its coefficients mean, and
-// the class in it. The build reads these lines and compiles all loops over each form, once per instruction set.
+// The pair potentials that have kernels, a line each: the file in kernels/forms/, which documents the coefficients, and the class
+// in it. The build reads these lines and compiles all loops over each form, once per instruction set.
 #define LANESCAPE_PAIR_FORMS(FORM)  \
   FORM(lennard_jones, LennardJones) \
   FORM(even_powers, EvenPowers)     \

@@ -1,4 +1,4 @@
-// The machine's own limit for the benchmarks to divide by: as many independent multiply-adds as it takes to fill the pipes.
+// The machine's peak, to which benchmarks relate their rates: enough independent multiply-adds to fill the pipes.
 
 #include "kernel_declarations.hpp"
 #include "simd/simd.hpp"
@@ -6,7 +6,7 @@
 namespace lanescape::kernels::LANESCAPE_ISA {
 
 double peak_rounds(std::size_t rounds, double* sink) noexcept {
-  constexpr std::size_t chains = 12;  // at least latency (4) times pipes (2), within 16 registers
+  constexpr std::size_t chains = 12;  // at least latency (4) times pipes (2), and fits in 16 registers
   Vector x[chains];
   for (std::size_t k = 0; k < chains; ++k) x[k] = broadcast(1.0 + static_cast<double>(k));
   const Vector a = broadcast(0.999999), b = broadcast(1e-6);

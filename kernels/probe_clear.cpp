@@ -1,4 +1,4 @@
-// Whether a probe has room: distances alone, before any energy.
+// Whether a probe has room: checks distances only, before any energy is computed.
 
 #include "grid_columns.hpp"
 #include "kernel_declarations.hpp"
@@ -7,7 +7,8 @@
 namespace lanescape::kernels::LANESCAPE_ISA {
 namespace {
 
-// Whether no point of a species is nearer than `reach`. The position's own column comes first: what is too near is mostly there.
+// True if no point of a species is nearer than `reach`. The position's own column is checked first, because points that are too
+// near are mostly there.
 bool is_clear(const ProbeSpecies& points, double reach, const double* position) noexcept {
   const Vector x = broadcast(position[0]), y = broadcast(position[1]), z = broadcast(position[2]);
   const Vector limit = broadcast(reach * reach);

@@ -1,6 +1,6 @@
-// The path finder's inner loop: which pairs of a short list overlap, the fictitious forces between them, and the trial that
-// these forces suggest. The list holds what can come to overlap while no particle has moved by more than half its skin; its
-// images are fixed, so that no nearest image is searched.
+// The path finder's inner loop: which pairs of a short list overlap, the fictitious forces between them, and the next trial from
+// these forces. The list holds every pair that can overlap while no particle has moved by more than half its skin. Its images are
+// fixed, so no nearest image is searched.
 
 #include "kernel_declarations.hpp"
 #include "simd/simd.hpp"
@@ -13,7 +13,7 @@ struct Separation {
   Mask overlapping;
 };
 
-// Products and sums are rounded one by one, as in sphere_overlap.cpp: the two take the same decisions.
+// Products and sums are rounded one by one, as in sphere_overlap.cpp, so both files take the same decisions.
 inline Separation separation(const SphereList& list, const double* positions, std::size_t slots, std::size_t k) noexcept {
   const auto along = [&](const double* x, const double* shift) {
     return (gather(x, list.second + k) - gather(x, list.first + k)) - load(shift + k);
@@ -47,21 +47,21 @@ std::size_t sphere_list_contacts(const SphereList& list, const double* positions
     store(out.squared + k, s.squared);
     count += compress_store_lanes(out.places + count, bits(s.overlapping), static_cast<std::int32_t>(k));
   }
-  // Whole vectors of places are read: what follows the last one must be a place too.
+  // Whole vectors of offsets are read, so the entries after the last one must be valid offsets too.
   for (std::size_t k = 0; k < lanes; ++k) out.places[count + k] = 0;
   return count;
 }
 
 void sphere_contact_forces(const SphereList& list, const SphereContacts& contacts, std::size_t count, ContactPotential potential,
                            double* force, std::size_t slots) noexcept {
-  // First the forces on the second of each pair, packed.
+  // First, the forces on the second sphere of each pair, packed.
   for (std::size_t n = 0; n < count; n += lanes) {
     const std::int32_t* const places = contacts.places + n;
     const Vector r = square_root(gather(contacts.squared, places)), s = gather(list.contact, places);
     Vector magnitude = s;                                                         // linear: s^2 (1 - x)
     if (potential == ContactPotential::harmonic) magnitude = s - r;               // s^2 (1 - x)^2 / 2
     if (potential == ContactPotential::cubic) magnitude = (r / s) * (s - r) * s;  // s^3 (x^3/3 - x^2/2 + 1/6)
-    // Coincident centres push nowhere.
+    // Coincident centres get no force.
     const Vector per_length = magnitude * masked_reciprocal(less(broadcast(0.0), r), r);
     store(contacts.force_x + n, gather(contacts.x, places) * per_length);
     store(contacts.force_y + n, gather(contacts.y, places) * per_length);
@@ -100,7 +100,7 @@ std::size_t sphere_avoidance_trial(double* trial, const double* position, double
       store(sum + at, f[axis]);
       store(force + at, zero);
     }
-    // Sums are of unit vectors in 3N space: below 1e-12 a particle's share is rounding, and has no direction.
+    // Sums are of unit vectors in 3N space: a share below 1e-12 is rounding error and has no direction.
     const Vector norm = square_root(multiply_add(f[2], f[2], multiply_add(f[1], f[1], f[0] * f[0])));
     const Mask moves = less(broadcast(1e-12), norm);
     const Vector per_length = length * masked_reciprocal(moves, norm);

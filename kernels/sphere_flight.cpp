@@ -7,7 +7,7 @@ namespace lanescape::kernels::LANESCAPE_ISA {
 
 namespace {
 
-// The earliest event of all lanes; of several at one time the first in the list, whatever the number of lanes.
+// The earliest event of all lanes. For equal times it takes the first in the list, whatever the number of lanes.
 CollisionEvent first_of(const CollisionQuery& query, const Vector& earliest, const Vector& place) {
   const double wait = reduce_min(earliest);
   if (!(wait < __builtin_inf())) return {__builtin_inf(), -1};
@@ -17,9 +17,9 @@ CollisionEvent first_of(const CollisionQuery& query, const Vector& earliest, con
 
 }  // namespace
 
-// t = [-b - sqrt(b^2 - v^2 (r^2 - s^2))]/v^2 ([G] Eq. 3.45) as (r^2 - s^2)/[sqrt(...) - b], which loses no digits when the spheres
-// are nearly in contact. Products and sums are rounded one by one and no sum crosses lanes, so that every instruction set
-// finds the same time to the bit.
+// t = [-b - sqrt(b^2 - v^2 (r^2 - s^2))]/v^2 ([G] Eq. 3.45), written as (r^2 - s^2)/[sqrt(...) - b], which loses no digits when the
+// spheres are nearly in contact. Products and sums are rounded one by one and no sum crosses lanes, so every instruction set finds
+// the same time to the bit.
 CollisionEvent sphere_first_collision(const CollisionQuery& query) noexcept {
   const FlyingSphere& self = query.spheres[query.self];
   const double flown = query.now - self.time;
@@ -48,7 +48,7 @@ CollisionEvent sphere_first_collision(const CollisionQuery& query) noexcept {
     const Vector c = ((dx * dx + dy * dy) + dz * dz) - s * s;
     const Vector w2 = ((wx * wx + wy * wy) + wz * wz) - a * a;
     const Vector discriminant = b * b - w2 * c;
-    // Those hit that approach, and those whose surfaces grow faster than their centres part (w2 < 0).
+    // Spheres hit if they approach, or if their surfaces grow faster than their centres separate (w2 < 0).
     const Mask there = lanes_below(static_cast<std::ptrdiff_t>(query.count) - static_cast<std::ptrdiff_t>(k));
     Mask hits = both(either(less(b, zero), less(w2, zero)), and_not(there, less(discriminant, zero)));
     if (!any(hits)) continue;
@@ -67,7 +67,7 @@ void calendar_update(const CalendarView& calendar, std::size_t event, double tim
   for (std::size_t level = 0; level + 1 < calendar.levels; ++level) {
     double* const times = calendar.times[level];
     const std::size_t block = entry / calendar_block, first = block * calendar_block;
-    // The new entry is put in on its way through the registers: a vector load right after a scalar store would wait for it.
+    // The new entry is inserted in registers: a vector load right after a scalar store would stall.
     Vector entries[vectors];
     Vector least = broadcast(__builtin_inf());
     const Vector changed = broadcast(static_cast<double>(entry - first)), new_time = broadcast(time);

@@ -1,8 +1,8 @@
-// Which hard spheres overlap, over all pairs: the form for a configuration seen for the first time.
+// Which hard spheres overlap, over all pairs: used for a configuration that has no list yet.
 //
-// Coordinates become 32-bit fractions of the box, whose differences wrap around as the box does, so that the nearest image
-// costs nothing and 16 pairs fit a vector. Single precision then finds every pair that can overlap and a few that do not; each of
-// these is decided in double by the one formula that all instruction sets share.
+// Coordinates become 32-bit fractions of the box. Their differences wrap around as the box does, so the nearest image costs nothing
+// and 16 pairs fit a vector. A single-precision filter finds every pair that can overlap and a few that do not. Each of these is
+// decided in double precision by the one formula that all instruction sets share.
 
 #include "kernel_declarations.hpp"
 #include "simd/simd.hpp"
@@ -12,11 +12,11 @@ namespace {
 
 constexpr std::size_t row_tile = sphere_pair_rows;
 constexpr double whole_box = 4294967296.0;
-// What the filter may be wrong by: a few roundings of 2^-24 each in r^2 and s^2, and a few units of the fractions, of which
-// one comes from each rounding and the rest from coordinates up to 10^6 boxes away.
+// Error bounds of the filter: a few roundings of 2^-24 each in r^2 and s^2, and a few units of the fractions. One unit comes from
+// each rounding, the rest from coordinates up to 10^6 boxes away.
 constexpr double relative_margin = 2e-6, fraction_margin = 8.0;
 
-// Separation, nearest image, of two slots along one axis.
+// Nearest-image separation of two slots along one axis.
 inline double nearest(double from, double to, double length) noexcept {
   const double d = to - from;
   return d - length * std::nearbyint(d / length);
@@ -34,8 +34,8 @@ inline bool within(const SphereInput& in, double reach, std::size_t i, std::size
   return squared_distance(in, i, j) < range * range;
 }
 
-// Fills the scratch arrays; returns the factors from fractions to the filter's unit of length. In a cube that unit is the
-// fraction itself and the factors are 1.
+// Fills the scratch arrays and writes to `scale` the factors from fractions to the filter's unit of length. In a cube that unit is
+// the fraction itself and the factors are 1.
 void prepare(const SphereInput& in, double reach, float* scale) noexcept {
   const bool cubic = in.box[0] == in.box[1] && in.box[1] == in.box[2];
   const double longest =
@@ -53,7 +53,7 @@ void prepare(const SphereInput& in, double reach, float* scale) noexcept {
   for (std::size_t i = in.slots; i < in.float_slots; ++i) in.reaches[i] = static_cast<float>(__builtin_nan(""));
 }
 
-// Lanes of one vector of columns that may be within reach of row i.
+// Bits of the columns in one vector that may be within reach of row i.
 template <bool cubic>
 inline std::uint32_t near_columns(const SphereInput& in, const float* scale, std::size_t i, std::size_t j) noexcept {
   FloatVector d[3];
@@ -67,7 +67,7 @@ inline std::uint32_t near_columns(const SphereInput& in, const float* scale, std
   return bits(less(squared, range * range));
 }
 
-// Calls visit(i, j), i < j, for every pair that passes the filter, until one call returns true.
+// Calls visit(i, j), i < j, for every pair that passes the filter, until a call returns true.
 template <bool cubic, class Visit>
 inline bool any_near_pair(const SphereInput& in, const float* scale, Visit visit) noexcept {
   const auto each = [&](std::uint32_t mask, std::size_t i, std::size_t j) {
@@ -80,7 +80,7 @@ inline bool any_near_pair(const SphereInput& in, const float* scale, Visit visit
   for (std::size_t i = 0; i < in.slots; i += row_tile) {
     const std::size_t diagonal = i / float_lanes * float_lanes;
     for (std::size_t row = i; row < i + row_tile; ++row) {
-      // Bits of columns up to the row itself are dropped: (2 << k) - 1 has the k + 1 lowest set.
+      // Bits of columns up to the row itself are cleared: (2 << k) - 1 has the lowest k + 1 bits set.
       const std::uint32_t upper = ~((2U << (row - diagonal)) - 1U);
       const std::uint32_t mask = near_columns<cubic>(in, scale, row, diagonal) & upper;
       if (mask != 0 && each(mask, row, diagonal)) return true;
@@ -138,7 +138,7 @@ double sphere_smallest_gap(const SphereInput& in) noexcept {
       }
       const Vector squared = (d[0] * d[0] + d[1] * d[1]) + d[2] * d[2];
       const Vector gap = square_root(squared) - (broadcast(in.radii[i]) + load(in.radii + j));
-      // Comparisons with the NaN of padding are false. Columns up to the row itself are left out.
+      // Comparisons with the NaN of padding are false. Columns up to the row itself are skipped.
       const Mask smaller =
           and_not(less(gap, smallest), lanes_below(static_cast<std::ptrdiff_t>(i + 1) - static_cast<std::ptrdiff_t>(j)));
       smallest = select(smaller, gap, smallest);

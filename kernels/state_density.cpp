@@ -1,8 +1,8 @@
-// Local densities, and the forces that act by way of them: the first and the last pass over pairs of a state-probability
-// interaction. As in loops/list.hpp each pair is met from both ends and only the row's own results are written.
+// Local densities, and the forces that act through them: the first and the last pass over pairs of a state-probability interaction.
+// As in loops/list.hpp, each pair is visited from both ends and only the row's own results are written.
 //
-// A switching function is a cubic spline in r^2: no root, no division, and 2 dw/d(r^2) is w'/r. Any function will do, and the force
-// is the exact derivative of the density that is summed, so that energy is conserved to rounding.
+// A switching function is a cubic spline in r^2: it needs no root and no division, and 2 dw/d(r^2) is w'/r. Any function can be
+// used. The force is the exact derivative of the summed density, so energy is conserved to rounding.
 
 #include "kernel_declarations.hpp"
 #include "state_pair.hpp"
@@ -19,13 +19,13 @@ Switching broadcast_switching(const SwitchingSpline& w) {
   return {w.spline.records, broadcast(w.spline.per_unit), broadcast(w.spline.intervals), broadcast(w.cutoff_squared)};
 }
 
-// Slopes of large systems come from memory when they are written to; it is asked for them so far ahead (worth 5 % of all passes).
+// In large systems the array of slopes is written to memory; this is how far ahead it is prefetched (saves 5 % of all passes).
 constexpr std::size_t write_ahead = 128;
 
-// How many neighbours are looked at before what is in range of them is counted.
+// Neighbours are processed in chunks of this size; those in range are packed before their densities are summed.
 constexpr std::size_t chunk = 128;
 
-// The first part of a pass: squared separations of what is within reach of anything, packed.
+// The first part of a pass: squared separations of the neighbours within any reach, packed.
 struct Packed {
   alignas(array_alignment) double r2[chunk + lanes];
   std::size_t count = 0;
@@ -45,7 +45,7 @@ LANESCAPE_INLINE void pack_vector(const double* points, const std::uint32_t* off
   packed.count += compress_store(near + packed.count, chosen, offsets);
 }
 
-// The density of a vector of neighbours; w'(r)/r of each goes to `slopes`.
+// The density from a vector of neighbours; w'(r)/r of each is written to `slopes`.
 LANESCAPE_INLINE Vector density_of(const Switching& w, Vector r2, Mask in_range, double* slopes) {
   SplinePlace place;
   find_place(place, r2 * w.per_unit, w.intervals, 1);
@@ -70,14 +70,14 @@ LANESCAPE_INLINE Vector sum_of_packed(const Switching& w, const Packed& packed, 
   return sum + density_of(w, r2, both(less(r2, w.cutoff_squared), valid), slopes + j);
 }
 
-// What a segment's neighbours that are near go to.
+// Output for the near neighbours of a segment.
 struct Near {
   std::uint32_t* offsets;
   double* slopes;
   std::size_t count = 0;
 };
 
-// The density that `count` neighbours make.
+// The density from `count` neighbours.
 LANESCAPE_INLINE double one_segment(const double* points, const std::uint32_t* offsets, std::size_t count, const Displacement& row,
                                     const Switching& w, Vector reach_squared, Near& near) {
   Vector sum = broadcast(0.0);
@@ -105,19 +105,19 @@ LANESCAPE_INLINE Vector slope_over_r(const Switching& w, Vector r2, Mask in_rang
   return where(in_range, spline_slope(place.s, b, c, d) * (w.per_unit + w.per_unit));
 }
 
-// One row's part in the densities of both ends of its pairs.
+// Weights of one row in the densities of both ends of its pairs.
 struct Multipliers {
   Vector own;   // dU/drho_i c_ij
   Vector back;  // c_ji
 };
 
-// What one row gets. Copied to registers for a loop and back after it.
+// Sums of one row. They are copied to registers before a loop and back after it.
 struct RowSums {
   Displacement g;
   Vector virial;
 };
 
-// Both ends count by one switching function, whose slopes are there, or the other end counts by another.
+// one_switching: both ends use the same switching function, whose slopes are stored. Otherwise the other end has its own.
 template <bool with_tensor, bool one_switching>
 LANESCAPE_INLINE void force_segment(const double* points, const std::uint32_t* offsets, const double* slopes, std::size_t count,
                                     const Displacement& row, const Switching theirs, const Multipliers multipliers,

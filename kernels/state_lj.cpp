@@ -1,8 +1,8 @@
 // Lennard-Jones potentials between states, at fixed probabilities, over neighbour lists as in loops/list.hpp.
 //
-// All pairs of states share powers of one distance. Summed over a row's neighbours with the probability of each of their states,
-// r^-6, r^-12 and 1 say all of energy and dU/dp, once per row; and the force on a pair needs one c12 and one c6, averaged over the
-// states of both. Two states then cost a few multiplications more than one.
+// All pairs of states share the powers of one distance. A row sums r^-6, r^-12 and 1 over its neighbours, weighted with the
+// probability of each of their states; energy and dU/dp follow from these sums, once per row. The force on a pair needs one c12 and
+// one c6, averaged over the states of both. Two states then cost only a few multiplications more than one.
 
 #include "forms/lennard_jones.hpp"
 #include "kernel_declarations.hpp"
@@ -13,12 +13,12 @@ namespace {
 
 using PowerSums = LennardJones<Vector>::Sums;
 
-// Of one row with the neighbours of one species: 12 c12 and 6 c6 for each state of a neighbour, averaged over the row's.
+// One row with the neighbours of one species: 12 c12 and 6 c6 for each neighbour state, averaged over the row's states.
 struct Averaged {
   Vector twelve_c12[4], six_c6[4];
 };
 
-// Sums of powers weighted with the probability of each state; of two states the first and all.
+// Sums of powers, weighted with the probability of each state. With two states: the sums of the first state and of both.
 struct StateSums {
   PowerSums of[4];
 };
@@ -40,7 +40,7 @@ LANESCAPE_INLINE void add_states(StateSums& sums, const NeighbourStates& states,
   }
 }
 
-// The average over a neighbour's states. Of two, the second and the difference are given.
+// The average over a neighbour's states. With two states, `of_state` holds the difference (first minus second) and the second.
 template <StatesAtOnce n>
 LANESCAPE_INLINE Vector average(const Vector* of_state, const NeighbourStates& states) {
   if constexpr (n == StatesAtOnce::one) return of_state[0];
@@ -68,13 +68,13 @@ LANESCAPE_INLINE void pair_vector(const double* points, const double* quads, con
   }
 }
 
-// A number that the compiler knows where it is one or two.
+// The number of states, a compile-time constant for one or two.
 template <StatesAtOnce n>
 constexpr std::size_t known(std::size_t states) {
   return n == StatesAtOnce::four ? states : count_of(n);
 }
 
-// Of the states [first, first + n) of a neighbour.
+// For the states [first, first + n) of a neighbour.
 template <StatesAtOnce n>
 LANESCAPE_INLINE Averaged average_over_row(const StateLjPair* pairs, const double* p, std::size_t states, std::size_t first) {
   double c12[4] = {}, c6[4] = {};
@@ -91,8 +91,9 @@ LANESCAPE_INLINE Averaged average_over_row(const StateLjPair* pairs, const doubl
   return averaged;
 }
 
-// What the sums of one species' neighbours say: energy, virial and, where wanted, dU/dp of each of the row's states. With one state
-// as in loops/list.hpp, to the bit; with more the lanes are added up first, which leaves less to do.
+// Adds what follows from the sums over one species' neighbours: energy, virial and, if wanted, dU/dp of each of the row's states.
+// With one state the result equals that of loops/list.hpp to the bit. With more states the lanes are summed first, which is less
+// work.
 LANESCAPE_INLINE void add_one_state(const StateLjPair& u, double p, const Averaged& averaged, const PowerSums& s, double* slopes,
                                     StateTotals& totals) {
   totals.virial += multiply_add(averaged.twelve_c12[0], s.rinv12, broadcast(0.0) - averaged.six_c6[0] * s.rinv6);

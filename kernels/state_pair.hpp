@@ -2,11 +2,11 @@
 
 #include "loops/neighbour_rows.hpp"
 
-// What the kernels of state-probability interactions share.
+// Shared by the kernels of state-probability interactions.
 namespace lanescape::kernels::LANESCAPE_ISA {
 
-// How many states of its neighbours a kernel sums over at once: the probability of one is 1, of two the first comes with the point,
-// of more four come from a record of their own, and again for each four there are.
+// How many states of its neighbours a kernel sums over at once. The probability of a single state is 1. With two states, the first
+// probability is stored with the point. With more, records hold four probabilities each, and there is one sweep per four states.
 enum class StatesAtOnce { one, two, four };
 constexpr std::size_t count_of(StatesAtOnce n) { return n == StatesAtOnce::one ? 1 : n == StatesAtOnce::two ? 2 : 4; }
 
@@ -15,7 +15,7 @@ struct NeighbourStates {
   Vector p[4];
 };
 
-// One vector of neighbours of a row: separations r_j - r_i, their squares, and which are within the cutoff.
+// One vector of neighbours of a row: separations r_j - r_i, their squares, and which lanes are within the cutoff.
 struct PairVector {
   Displacement d;
   Vector r2, fourth;
@@ -37,19 +37,19 @@ LANESCAPE_INLINE PairVector pairs_of(const double* points, const std::uint32_t* 
 
 LANESCAPE_INLINE Vector where(Mask m, Vector v) { return select(m, v, broadcast(0.0)); }
 
-// Where in a spline an argument lies: offsets of the intervals' first records, and how far into the interval.
+// Where an argument lies in a spline: offsets of the intervals' first records, and the position within the interval.
 struct SplinePlace {
   WholeLanes intervals;
   Vector s;
   std::uint32_t stride;  // from interval to interval, in doubles
-  // Of the first record of a lane's interval.
+  // Offset of the first record of a lane's interval.
   std::uint32_t operator[](std::size_t lane) const { return intervals.of(lane) * stride; }
 };
 
-// `x` in intervals; what is not below their number, or is not a number, is at the end. `width`: records of an interval.
+// `x` is in units of intervals; values not below their number, and NaN, map to the end. `width`: records per interval.
 LANESCAPE_INLINE void find_place(SplinePlace& place, Vector x, Vector intervals, std::size_t width) {
   x = select(less(x, intervals), x, intervals);
-  // A knot may be the end of one interval or the start of the next: the spline is the same.
+  // A knot may be the end of one interval or the start of the next: the spline has the same value in both.
   place.s = x - store_nearest_whole(place.intervals, x - broadcast(0.5));
   place.stride = static_cast<std::uint32_t>(width * point_width);
 }
@@ -58,17 +58,17 @@ LANESCAPE_INLINE Vector spline_value(Vector s, Vector b, Vector c, Vector d, Vec
   return multiply_add(s, multiply_add(s, multiply_add(s, d, c), b), a);
 }
 
-// With respect to the argument in intervals.
+// Derivative with respect to the argument in intervals.
 LANESCAPE_INLINE Vector spline_slope(Vector s, Vector b, Vector c, Vector d) {
   return multiply_add(s, multiply_add(s * broadcast(3.0), d, c + c), b);
 }
 
-// What is summed lane by lane, and what row by row.
+// Sums per lane, and sums per row.
 struct StateTotals : Totals {
   double rows_energy = 0.0, rows_virial = 0.0;
 };
 
-// Every pair was met from both ends.
+// Halves the sums, because every pair was visited from both ends.
 inline void put_totals(const StateTotals& totals, bool with_tensor, PairOutput& out) {
   out.energy = 0.5 * (reduce_add(totals.energy) + totals.rows_energy);
   out.virial = 0.5 * (reduce_add(totals.virial) + totals.rows_virial);

@@ -1,5 +1,5 @@
 // Tabulated potentials between states, cubic splines in r, at fixed probabilities, over neighbour lists as in loops/list.hpp. All
-// pairs of states of a species pair share their intervals, so that one search serves them all and what it finds lies side by side.
+// pairs of states of a species pair use the same intervals, so one search serves them all and their coefficients are contiguous.
 
 #include "kernel_declarations.hpp"
 #include "state_pair.hpp"
@@ -7,9 +7,9 @@
 namespace lanescape::kernels::LANESCAPE_ISA {
 namespace {
 
-// States of a row and of its neighbours that one sweep over the neighbours takes, at most four each.
+// The states of a row and of its neighbours that one sweep over the neighbours handles, at most four each.
 struct Sweep {
-  std::size_t states;  // there are
+  std::size_t states;  // in total
   std::size_t first_row_state, row_states;
   std::size_t first_state, neighbour_states;
   const double* row_probabilities;  // of the row, from first_row_state on

@@ -1,5 +1,5 @@
-// Algebra on 3N arrays. Sums run in four interleaved partial sums (the latency of an addition is about four cycles) that are
-// folded in a fixed order, so that a result depends on the instruction set but on nothing else.
+// Algebra on 3N arrays. Sums use four interleaved partial sums (an addition has a latency of about four cycles), which are added in
+// a fixed order. A result therefore depends on the instruction set and on nothing else.
 
 #include "kernel_declarations.hpp"
 #include "simd/simd.hpp"

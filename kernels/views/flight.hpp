@@ -8,7 +8,7 @@
 // Hard spheres in flight: collisions and their calendar.
 namespace lanescape::kernels {
 
-// A sphere in free flight: where it was at its own time. Eight doubles, one cache line.
+// A sphere in free flight: its position at its own time. Eight doubles, one cache line.
 struct alignas(64) FlyingSphere {
   double x, y, z;     // [sigma]
   double vx, vy, vz;  // [sigma / time]
@@ -19,7 +19,7 @@ struct alignas(64) FlyingSphere {
 // The first collision of one sphere with its neighbours after `now`.
 struct CollisionQuery {
   const FlyingSphere* spheres;
-  const std::int32_t* neighbours;  // room for a multiple of slot_padding; valid indices up to there
+  const std::int32_t* neighbours;  // room for a multiple of slot_padding; valid indices in all of it
   std::size_t count;
   std::size_t self;
   double now;
@@ -32,8 +32,8 @@ struct CollisionEvent {
   std::int32_t partner;  // -1 if there is none
 };
 
-// A tournament over event times: level 0 holds the times themselves, each later one the least of every block of calendar_block
-// entries and which event it is. Entries beyond the last are infinite. The top level has one block.
+// A tournament tree over event times. Level 0 holds the times themselves. Each later level holds the smallest of every block of
+// calendar_block entries, and the index of its event. Entries beyond the last are infinite. The top level has one block.
 inline constexpr std::size_t calendar_block = 16;
 inline constexpr std::size_t calendar_levels = 8;
 struct CalendarView {

@@ -2,11 +2,11 @@
 
 #include <cstddef>
 
-// What all kernels share of how the library lays out its arrays. A kernel never owns, allocates or throws.
+// How the library lays out its arrays, for all kernels. A kernel never owns, allocates or throws.
 namespace lanescape::kernels {
 
-// Slots per padding unit: every species block starts at a multiple of it and every array is a multiple of it long, so that
-// the widest vectors (8 doubles) need no remainder loop. Padding slots hold zeros and are masked out of every sum.
+// Slots per padding unit: every species block starts at a multiple of it and the length of every array is a multiple of it, so the
+// widest vectors (8 doubles) need no remainder loop. Padding slots hold zeros and are masked out of every sum.
 inline constexpr std::size_t slot_padding = 8;
 
 // Alignment of every array a kernel reads or writes [bytes].
