@@ -66,7 +66,7 @@ struct PairOutput {
 inline constexpr std::size_t point_width = 4;
 
 // Rows of one species and the neighbours of each, species by species. The neighbours of a row of one species start at a multiple of
-// slot_padding and are padded with offsets that are valid but not counted. slot_padding more follow after the last.
+// slot_padding and are padded with offsets that are valid but not counted. After the last row, slot_padding more entries follow.
 struct NeighbourRows {
   const double* points;
   const std::uint32_t* rows;  // offsets of the rows' own points
