@@ -12,10 +12,10 @@ namespace lanescape {
 namespace {
 
 constexpr std::uint64_t most_lags = 999, fewest_lags = 100;  // of the curves
-constexpr std::uint64_t most_records = 1'000'000'000;        // far beyond what memory holds
+constexpr std::uint64_t most_records = 1'000'000'000;        // far more than fits in memory
 
-// Adds to sum[k] the squares of x[t + k] - x[t] of every origin. The inner loop runs over lags, which keeps the order of each sum
-// and leaves the compiler its vectors.
+// Adds the squares of x[t + k] - x[t] to sum[k] for every origin t. The inner loop runs over lags, so each sum keeps its order and
+// the compiler can vectorise.
 void add_squared_displacements(const std::vector<double>& x, std::size_t origins, std::vector<double>& sum) {
   for (std::size_t t = 0; t < origins; ++t) {
     const double* from_origin = x.data() + t;
@@ -26,7 +26,7 @@ void add_squared_displacements(const std::vector<double>& x, std::size_t origins
   }
 }
 
-// Of the least-squares line through y[first], ..., y[end - 1], per point.
+// Slope of the least-squares line through y[first], ..., y[end - 1], per point.
 double fitted_slope(const double* y, std::size_t first, std::size_t end) {
   const double middle = 0.5 * static_cast<double>(first + end - 1);
   double xx = 0.0, xy = 0.0;

@@ -12,18 +12,18 @@
 
 namespace lanescape {
 
-// What of a trajectory is correlated: M equally spaced records, lags up to n records. The origins are the first M - n records,
-// for every lag the same, so that each has its full window.
+// Which part of a trajectory is correlated: M equally spaced records, lags up to n records. The origins are the first M - n
+// records, the same for every lag, so each origin has its full window.
 struct DiffusionWindow {
   double interval = 0.0;      // dt, between records [sigma sqrt(m/epsilon)]
   std::uint64_t lags = 0;     // n; at most 999, or a number with a divisor that leaves 100 to 999 of them for the curves
   std::uint64_t records = 0;  // M > n
 
-  // Throws Error(bad_input) naming what is out of range.
+  // Throws Error(bad_input), which names the value out of range.
   void check() const;
   std::uint64_t origins() const { return records - lags; }
   double longest_time() const { return static_cast<double>(lags) * interval; }  // t_max = n dt
-  // Records between positions, and between the points of the curves: the least divisor of n that leaves at most 999 lags.
+  // Records between stored positions, and between the points of the curves: the smallest divisor of n that leaves at most 999 lags.
   std::uint64_t stride() const;
   std::size_t points() const { return static_cast<std::size_t>(lags / stride()) + 1; }
 };
@@ -35,12 +35,12 @@ class TrajectoryRecord {
   // Checks the window.
   TrajectoryRecord(const ParticleLayout& layout, const DiffusionWindow& window);
 
-  // The next record, in the layout's order, positions unwrapped, neither with a drift of the centre of mass. The records end at
-  // M; one more throws Error(internal).
+  // Adds a record, in the layout's order, with unwrapped positions; neither array may have a drift of the centre of mass. There are
+  // M records; one more throws Error(internal).
   void record(const AlignedArray& velocity, const AlignedArray& position);
   bool full() const { return records_ == window_.records; }
   std::uint64_t records() const { return records_; }
-  // To be used for another trajectory; keeps its memory.
+  // Resets the object for another trajectory; keeps its memory.
   void clear();
 
  private:
@@ -54,7 +54,7 @@ class TrajectoryRecord {
   std::vector<double> positions_;  // such rows at every stride()
 };
 
-// Whether t_max is long enough for the mean squared displacement to tell the diffusion coefficient.
+// Whether t_max is long enough to obtain the diffusion coefficient from the mean squared displacement.
 enum class DiffusionRegime {
   diffusive,
   ballistic,  // displacement_exponent() > 1.2: with an exponential memory, t_max is below six times its time
@@ -68,19 +68,19 @@ class DiffusionAccumulator {
   // Checks the window.
   DiffusionAccumulator(const ParticleLayout& layout, const DiffusionWindow& window);
 
-  // The record must be full and made with the same layout and window, else Error(internal). Cost: 3 N Fourier transforms of M
-  // complex doubles and M n/stride()^2 displacements of every particle.
+  // The record must be full and have the same layout and window, else Error(internal). Cost: 3 N Fourier transforms of M complex
+  // doubles and M n/stride()^2 displacements of every particle.
   void add_trajectory(const TrajectoryRecord& record);
 
   std::uint64_t trajectories() const { return curves_[0].size() / (counts_.size() * points_); }
   std::size_t species() const { return counts_.size(); }
   const DiffusionWindow& window() const { return window_; }
 
-  // Estimates are means over trajectories, each of which is one independent value. A single one gives no error: its parts as long
-  // as a window are too few, and shorter parts share most of their windows.
+  // Estimates are means over trajectories, each of which is one independent value. A single trajectory gives no error: it has too
+  // few parts as long as a window, and shorter parts share most of their windows.
 
-  // Curves at times 0, ..., t_max: C(t) = <v(0).v(t)>, D(t) = (1/3) int_0^t C dt' by Simpson's rule over every record, and
-  // <|r(t) - r(0)|^2>, whose origins are those at multiples of stride().
+  // Curves at times 0, ..., t_max: C(t) = <v(0).v(t)>, D(t) = (1/3) int_0^t C dt' by Simpson's rule over every record, and <|r(t) -
+  // r(0)|^2> with origins at multiples of stride().
   std::size_t points() const { return points_; }
   double time(std::size_t point) const;
   Estimate velocity_correlation(std::size_t species, std::size_t point) const { return at(correlation, species, point); }
@@ -89,19 +89,19 @@ class DiffusionAccumulator {
 
   // D(t_max).
   Estimate vacf_diffusion(std::size_t species) const { return diffusion_integral(species, points_ - 1); }
-  // The mean squared displacement's slope at t_max over 6, by the three-point backward difference: a line through the last tenth
-  // has the slope at 0.95 t_max, and its smaller scatter comes no closer to D(t_max). What is left of the difference is that the
-  // origins of (1/3) <v(t_max).(r(t_max) - r(0))> reach one window further than those of C.
+  // The slope of the mean squared displacement at t_max, over 6, by the three-point backward difference. (A line through the last
+  // tenth has the slope at 0.95 t_max; its smaller scatter comes no closer to D(t_max).) A small difference from D(t_max) remains,
+  // because the origins of (1/3) <v(t_max).(r(t_max) - r(0))> extend one window further than those of C.
   Estimate msd_diffusion(std::size_t species) const;
-  // Slope over 6 of the line through the mean squared displacement in [t_max/2, t_max].
+  // Slope of the line through the mean squared displacement in [t_max/2, t_max], over 6.
   Estimate long_time_diffusion(std::size_t species) const;
 
-  // d ln <|dr|^2>/d ln t at t_max: 2 in free flight, 1 in diffusion, less in a cage, 0 where nothing moves.
+  // d ln <|dr|^2>/d ln t at t_max: 2 in free flight, 1 in diffusion, less in a cage, 0 if nothing moves.
   double displacement_exponent(std::size_t species) const;
   DiffusionRegime regime(std::size_t species) const;
 
-  // All trajectories so far. What was written with another window or other species throws Error(bad_input) when its curves differ
-  // in length; the caller keeps window and layout with it.
+  // All trajectories so far. Reading data of another window or other species throws Error(bad_input) if their curves differ in
+  // length; the caller stores window and layout as well.
   void exchange(Archive& archive);
 
  private:

@@ -13,8 +13,8 @@ namespace lanescape {
 // g_ab(r) averaged over the configurations added.
 class RadialDistribution {
  public:
-  // Up to this many particles g(r) reaches to half the shortest edge of the box at O(N^2) per configuration; beyond, by default, to
-  // 5 sigma at most, where a liquid's has settled, at O(N).
+  // Up to this many particles g(r) extends to half the shortest edge of the box, at O(N^2) per configuration. For more particles it
+  // extends by default to at most 5 sigma, where g(r) of a liquid has converged, at O(N).
   static constexpr std::size_t most_for_half_the_box = 5'000;
   static constexpr double range_of_large_systems = 5.0;  // [sigma]
   static double default_range(const Box& box, std::size_t particles);
@@ -31,7 +31,7 @@ class RadialDistribution {
   std::size_t species() const { return blocks_.size(); }
   std::uint64_t samples() const { return samples_; }
   double radius(std::size_t bin) const { return (static_cast<double>(bin) + 0.5) * width_; }  // middle of the bin [sigma]
-  // 0 where nothing was sampled or a species has no pairs.
+  // 0 if nothing was sampled or a species has no pairs.
   double value(std::size_t a, std::size_t b, std::size_t bin) const;
 
   void exchange(Archive& archive);

@@ -7,7 +7,8 @@
 namespace lanescape {
 namespace {
 
-// The centre of the slab is the phase of the density's longest wave. The periodic boundary does not disturb it.
+// The centre of the slab is given by the phase of the longest-wavelength Fourier component of the density, which needs no special
+// care at the periodic boundary.
 double centre_of(const std::vector<double>& positions, double length) {
   double sine = 0.0, cosine = 0.0;
   for (std::size_t k = 2; k < positions.size(); k += 3) {

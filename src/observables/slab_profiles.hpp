@@ -21,12 +21,12 @@ struct SlabProfiles {
   std::uint64_t samples = 0;
 };
 
-// Sums up samples of a slab.
+// Accumulates samples of a slab.
 class SlabSampler {
  public:
   SlabSampler(const Box& box, std::size_t bins, std::size_t states);
 
-  // `positions` are in the user's order; `interaction` was evaluated at them last.
+  // `positions` are in the user's order and must be those of the last evaluation of `interaction`.
   void add(const std::vector<double>& positions, const ParticleLayout& layout, const StateMixture& interaction);
   std::uint64_t samples() const { return samples_; }
   SlabProfiles profiles() const;

@@ -6,7 +6,7 @@
 
 namespace lanescape {
 
-// A mean of independent values and its standard error, which takes two values at least.
+// A mean of independent values and its standard error, which needs at least two values.
 struct Estimate {
   double value = 0.0;
   std::optional<double> error;

@@ -3,14 +3,14 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
-#include <kissfft/kissfft.hh>  // names no standard header of what it uses but <complex>, <utility> and <vector>
+#include <kissfft/kissfft.hh>  // of the standard headers it needs, this one includes only <complex>, <utility> and <vector>
 
 namespace lanescape {
 namespace {
 
 using Complex = std::complex<double>;
 
-// The least number from n on without prime factors above 5, for which kissfft has fast code.
+// The smallest number >= n without prime factors above 5, for which kissfft has fast code.
 std::size_t transform_length(std::size_t n) {
   const auto is_smooth = [](std::size_t m) {
     for (const std::size_t prime : {2, 3, 5})
@@ -24,8 +24,8 @@ std::size_t transform_length(std::size_t n) {
 }  // namespace
 
 std::vector<double> full_window_correlation(const SeriesView& series, std::size_t lags) {
-  // Let a be the series x cut to its origins. The circular correlation of a and x over a length of at least `records` mixes lag
-  // k with lags k +- length, of which there are none: the one needs a record at k + length, the other an origin at length - k.
+  // Let a be the series x cut to its origins. The circular correlation of a and x over a length of at least `records` mixes lag k
+  // with lags k +- length. These have no terms: they need a record at k + length or an origin at length - k.
   const std::size_t origins = series.records - lags, length = transform_length(series.records);
   const kissfft<double> forward(length, false);
   std::vector<Complex> pair(length), transformed(length), spectrum(length);
@@ -35,7 +35,7 @@ std::vector<double> full_window_correlation(const SeriesView& series, std::size_
       pair[t] = {t < origins ? x : 0.0, x};
     }
     forward.transform(pair.data(), transformed.data());
-    // With z = a + i x, conj(A_q) X_q = Im(Z_q Z_-q)/2 - i (|Z_q|^2 - |Z_-q|^2)/4: one transform serves both real series.
+    // With z = a + i x, conj(A_q) X_q = Im(Z_q Z_-q)/2 - i (|Z_q|^2 - |Z_-q|^2)/4: one transform handles both real series.
     for (std::size_t q = 0; q < length; ++q) {
       const Complex z = transformed[q], mirror = transformed[q == 0 ? 0 : length - q];
       spectrum[q] +=
