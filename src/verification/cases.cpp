@@ -23,7 +23,7 @@ constexpr std::uint64_t seed = 1;
 
 Box cube(double length) { return {{length, length, length}}; }
 
-// Points in units of the box: `cells` unit cells per axis, each holding `basis`.
+// Points in units of the box: `cells` unit cells per axis, each with `basis`.
 std::vector<Point> lattice(const std::array<int, 3>& cells, const std::vector<Point>& basis) {
   std::vector<Point> sites;
   for (int x = 0; x < cells[0]; ++x)
@@ -33,7 +33,7 @@ std::vector<Point> lattice(const std::array<int, 3>& cells, const std::vector<Po
   return sites;
 }
 
-// The cubic lattice (simple, body-centred or face-centred) with the fewest sites above n, cut to n sites.
+// The smallest cubic lattice (simple, body-centred or face-centred) with at least n sites, cut to n sites.
 std::vector<Point> densest_lattice(std::size_t n) {
   const std::vector<std::vector<Point>> bases = {
       {{0.0, 0.0, 0.0}}, {{0.0, 0.0, 0.0}, {0.5, 0.5, 0.5}}, {{0.0, 0.0, 0.0}, {0.0, 0.5, 0.5}, {0.5, 0.0, 0.5}, {0.5, 0.5, 0.0}}};
@@ -48,8 +48,8 @@ std::vector<Point> densest_lattice(std::size_t n) {
   return best;
 }
 
-// Sites in box units to positions displaced by up to 0.05 per axis, so that no separation is special; every third particle is
-// moved by up to four boxes per axis, as particles of a long run are. Each fifth particle is of the last species.
+// Turns sites in box units into positions displaced by up to 0.05 per axis, so that no separation is special. Every third particle
+// is moved by up to four boxes per axis, as happens to particles in a long run. Every fifth particle is of the last species.
 Configuration rattled(const std::vector<Point>& sites, const Box& box, std::size_t species_count) {
   const CounterRandom jitter(seed, RandomStream::displacements), boxes(seed, RandomStream::sites);
   Configuration configuration{box, {}, {}};
@@ -65,7 +65,7 @@ Configuration rattled(const std::vector<Point>& sites, const Box& box, std::size
   return configuration;
 }
 
-// A simple lattice, sites at least 0.93 apart, that fills a box of any shape.
+// A simple lattice that fills a box of any shape, sites at least 0.93 apart.
 Configuration filled(const Box& box, std::size_t species_count) {
   std::array<int, 3> cells;
   for (std::size_t axis = 0; axis < 3; ++axis) cells[axis] = std::max(1, static_cast<int>(box.length[axis] / 0.93));
@@ -78,7 +78,7 @@ Configuration pair_at(const Point& first, const Point& separation, const Box& bo
   return pair;
 }
 
-// A unit vector times r, no component zero or equal to another.
+// A unit vector times r with no zero component and no two equal components.
 Point along_diagonal(double r) { return {r * 2.0 / 7.0, r * 3.0 / 7.0, r * 6.0 / 7.0}; }
 
 // Three species of unequal sizes.
@@ -105,8 +105,8 @@ PairModel with_cutoff(PairModel model, double cutoff) {
 const std::array<ImageRule, 2> image_rules = {ImageRule::all, ImageRule::minimum};
 const std::array<Truncation, 3> truncations = {Truncation::shifted, Truncation::plain, Truncation::tail};
 
-// Numbers of particles that leave every kind of remainder in vectors of 2, 4 and 8 lanes and in tiles of 4 rows; at density
-// 1.2 they also run through the three image searches.
+// Numbers of particles that leave every kind of remainder in vectors of 2, 4 and 8 lanes and in tiles of 4 rows. At density 1.2
+// they also cover the three image searches.
 void add_sizes(std::vector<PairCase>& cases) {
   for (const auto& model : {lennard_jones(), kob_andersen()})
     for (const std::size_t n : {0U, 1U, 2U, 3U, 7U, 8U, 9U, 31U, 107U, 108U, 256U, 257U}) {
@@ -119,7 +119,7 @@ void add_sizes(std::vector<PairCase>& cases) {
     }
 }
 
-// Boxes that are no cubes, one for each image search at the cutoff 2.5; and boxes much smaller than the cutoff.
+// Non-cubic boxes, one for each image search at the cutoff 2.5; and boxes much smaller than the cutoff.
 void add_boxes(std::vector<PairCase>& cases) {
   const std::vector<std::pair<const char*, Box>> boxes = {{"orthorhombic nearest", {{6.0, 5.5, 7.2}}},
                                                           {"orthorhombic two nearest", {{4.0, 4.4, 5.2}}},
@@ -139,13 +139,13 @@ void add_boxes(std::vector<PairCase>& cases) {
   }
 }
 
-// A pair on either side of the cutoff, cut without a shift so that a wrong decision shows. Once for each way through a
-// kernel: the nearest image, the next one and the lattice, in a cube and in another box.
+// A pair on either side of the cutoff. The potential is cut without a shift, so a wrong decision is visible. There is one case per
+// code path of a kernel: the nearest image, the second nearest and the lattice, in a cube and in another box.
 void add_cutoff_edges(std::vector<PairCase>& cases) {
   struct Edge {
     const char* name;
     Box box;
-    bool next_image;  // the image that lies on the edge is the one across the x face
+    bool next_image;  // the image at the cutoff is the one across the x face
   };
   for (const Edge& edge : {Edge{"nearest, cube", cube(9.0), false}, Edge{"nearest", {{9.0, 8.0, 7.5}}, false},
                            Edge{"two nearest, cube", cube(4.0), true}, Edge{"two nearest", {{4.0, 4.4, 5.2}}, true},
@@ -173,7 +173,7 @@ void add_pairs(std::vector<PairCase>& cases) {
   }
 }
 
-// Three species of which one has no particles: at the beginning, in the middle or at the end of the blocks.
+// Three species, one of them without particles: at the beginning, in the middle or at the end of the blocks.
 void add_empty_species(std::vector<PairCase>& cases) {
   for (int empty = 0; empty < 3; ++empty)
     for (const double length : {2.3, 3.2, 4.6}) {
@@ -185,7 +185,7 @@ void add_empty_species(std::vector<PairCase>& cases) {
     }
 }
 
-// Two species of a form with these numbers.
+// Two species of a form with these parameters.
 PairModel two_species(const PairForm& form, const std::vector<double>& numbers) {
   PairModel model = kob_andersen();
   model.name = form.word;
@@ -199,7 +199,7 @@ PairModel two_species(const PairForm& form, const std::vector<double>& numbers) 
   return model;
 }
 
-// Numbers of a form: its presets, and others.
+// Parameters of a form: its presets, and others.
 std::vector<std::vector<double>> numbers_of(const PairForm& form) {
   std::vector<std::vector<double>> all(2);
   for (const FormNumber& number : form.numbers) {

@@ -10,8 +10,8 @@
 
 namespace lanescape {
 
-// |value - expected| in units of `scale`. Where nothing contributes (scale 0) only the exact value will do; a result that is
-// not a number is infinitely wrong.
+// |value - expected| in units of `scale`. If nothing contributes (scale 0) only the exact value passes; a NaN gives an infinite
+// deviation.
 inline double relative(long double value, long double expected, long double scale) {
   const long double difference = std::abs(value - expected);
   if (difference == 0.0L) return 0.0;
@@ -21,7 +21,7 @@ inline double relative(long double value, long double expected, long double scal
 
 inline bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
-// Gathers the worst of many cases.
+// Keeps the worst of many cases.
 struct Check {
   Deviation deviation;
 

@@ -47,12 +47,12 @@ struct FlightCase {
       s.z = 2.0 * box[2] * draw() - box[2];
       spheres.push_back(s);
     }
-    // The neighbours of sphere 2 in an order of their own; what follows them is padding.
+    // The neighbours of sphere 2 in a shuffled order; the entries after them are padding.
     for (std::size_t k = 0; k < count; ++k) neighbours[k] = static_cast<std::int32_t>(3 + (count + 4 - k) % count);
   }
 
-  // Puts a sphere at the distance s(now) + gap of sphere 2, moving off (or on, where negative) at the rate `parting` relative to
-  // the growing surfaces.
+  // Places a sphere at the distance s(now) + gap from sphere 2. It moves away at the rate `parting` (approaches if negative)
+  // relative to the growing surfaces.
   void place_near_contact(std::int32_t which, double gap, double parting) {
     const kernels::FlyingSphere& self = spheres[2];
     kernels::FlyingSphere& s = spheres[static_cast<std::size_t>(which)];
@@ -81,7 +81,7 @@ struct FlightCase {
     }
     return first;
   }
-  // |r - s| of a pair at a time, relative to s and the distances flown.
+  // |r - s| of a pair at a time, relative to s plus coordinates and the distances flown.
   double off_contact(std::int32_t partner, double time) const {
     const kernels::FlyingSphere &a = spheres[2], &b = spheres[static_cast<std::size_t>(partner)];
     const auto at = [](double x, double v, double start, double t) {
@@ -90,7 +90,7 @@ struct FlightCase {
     const std::array<double, 3> xa = {a.x, a.y, a.z}, xb = {b.x, b.y, b.z}, va = {a.vx, a.vy, a.vz}, vb = {b.vx, b.vy, b.vz};
     long double squared = 0.0L, flown = 0.0L;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      // The image that is the nearest now.
+      // The image that is nearest at `now`.
       const long double d_now = at(xb[axis], vb[axis], b.time, now) - at(xa[axis], va[axis], a.time, now);
       const long double d = at(xb[axis], vb[axis], b.time, time) - at(xa[axis], va[axis], a.time, time) -
                             box[axis] * std::nearbyint(d_now / box[axis]);
@@ -119,7 +119,7 @@ struct FlightChecks {
     const kernels::CollisionEvent found = flight.find(table), wanted = flight.expected();
     if (found.partner != wanted.partner || found.partner < 0 || !(found.time >= flight.now))
       growing.add(name, found.partner == wanted.partner && found.time == wanted.time ? 0.0 : infinity);
-    else if (wanted.time > flight.now)  // else they overlap already, and hit at once
+    else if (wanted.time > flight.now)  // otherwise they overlap already and collide at once
       growing.add(name, flight.off_contact(found.partner, found.time));
     else
       growing.add(name, found.time != flight.now);
@@ -136,8 +136,8 @@ struct FlightChecks {
       }
   }
 
-  // Just before and after a collision, which leaves gaps of a few roundings of either sign; and centres that part nearly as fast as
-  // surfaces grow.
+  // Just before and just after a collision, which leaves gaps of a few roundings of either sign; and centres that separate nearly
+  // as fast as the surfaces grow.
   void run_contacts(const kernels::KernelTable& table) {
     for (const std::size_t n : {1U, 8U, 9U})
       for (const double gap : {0.0, 1e-16, 4e-16, -4e-16, 1e-12, -1e-12, 1e-6, 0.5})
@@ -150,7 +150,7 @@ struct FlightChecks {
           }
   }
 
-  // Several collide at the same time: the first in the list is the result.
+  // If several spheres collide at the same time, the first in the list is the result.
   void run_ties(const kernels::KernelTable& table) {
     for (std::size_t n = 2; n <= 17; ++n)
       for (std::size_t first = 0; first < n; ++first) {
@@ -165,7 +165,7 @@ struct FlightChecks {
       }
   }
 
-  // Random updates, a fifth of them to times that are there already or to infinity, against the first of the smallest.
+  // Random updates, a fifth of them to times already present or to infinity. The result must be the first of the smallest times.
   void run_calendar(std::size_t events, const kernels::KernelTable& table) {
     const CounterRandom random(6, RandomStream::displacements);
     EventCalendar tested(events, table);
@@ -184,7 +184,7 @@ struct FlightChecks {
     tested.assign(times);
     count += wrong();
     for (std::uint32_t k = 0; k < 2000; ++k) {
-      // As in a run, mostly the first event is replaced, by a later one.
+      // As in a run, it is mostly the first event that is replaced, by a later one.
       const auto step = static_cast<std::uint32_t>(events) + k;
       const bool first = random.below(3, events, step, 2) > 0;
       const std::size_t event = first ? tested.first() : random.below(static_cast<std::uint32_t>(events), events, step, 3);

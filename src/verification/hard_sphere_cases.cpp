@@ -23,7 +23,7 @@ enum class Sizes { equal, binary, polydisperse };
 
 const char* to_string(Sizes sizes) { return sizes == Sizes::equal ? "equal" : sizes == Sizes::binary ? "binary" : "polydisperse"; }
 
-// Radii from 0.5 to 0.7. The species are mixed, so that the library's order is not the user's.
+// Radii from 0.5 to 0.7. The species are interleaved, so the library's order differs from the user's.
 void add_sphere(Configuration& configuration, Sizes sizes, const Point& at) {
   const std::size_t i = configuration.size();
   const CounterRandom random(seed, RandomStream::species);
@@ -35,7 +35,7 @@ void add_sphere(Configuration& configuration, Sizes sizes, const Point& at) {
   configuration.positions.insert(configuration.positions.end(), at.begin(), at.end());
 }
 
-// Every third particle goes to another image, up to `boxes` away along each axis.
+// Moves every third particle to another image, up to `boxes` away along each axis.
 void unwrap(Configuration& configuration, std::uint32_t boxes) {
   const CounterRandom random(seed, RandomStream::sites);
   for (std::uint32_t i = 2; i < configuration.size(); i += 3)
@@ -44,7 +44,7 @@ void unwrap(Configuration& configuration, std::uint32_t boxes) {
           (static_cast<double>(random.below(2 * boxes + 1, boxes, i, axis)) - boxes) * configuration.box.length[axis];
 }
 
-// n spheres on a simple lattice of the given spacing in units of the largest diameter, displaced by up to `rattle` per axis.
+// n spheres on a simple lattice with the given spacing in units of the largest diameter, displaced by up to `rattle` per axis.
 Configuration on_lattice(std::size_t n, Sizes sizes, bool cubic, double spacing, double rattle) {
   const double diameter = sizes == Sizes::equal ? 1.0 : 1.4, a = spacing * diameter;
   std::size_t edge = 3;  // boxes stay above twice the diameter
@@ -58,7 +58,7 @@ Configuration on_lattice(std::size_t n, Sizes sizes, bool cubic, double spacing,
       {}};
   const CounterRandom random(seed, RandomStream::displacements);
   for (std::size_t i = 0; i < n; ++i) {
-    // Sites throughout the box, not only in its first layers.
+    // Sites are spread over the whole box, not only over its first layers.
     const std::size_t site = i * (cells[0] * cells[1] * cells[2]) / n;
     const std::array<std::size_t, 3> at = {site % cells[0], site / cells[0] % cells[1], site / (cells[0] * cells[1])};
     Point p;
@@ -98,7 +98,7 @@ struct Image {
 
 constexpr double inside = 0.125, face = 7.75;
 
-// A pair that touches, and the same with radii one ulp larger and smaller.
+// A touching pair, and the same with radii one ulp larger and smaller.
 void add_contact(std::vector<HardSphereCase>& cases, const Contact& contact, const Image& image, const Box& box) {
   Point first = image.first, second;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -113,8 +113,8 @@ void add_contact(std::vector<HardSphereCase>& cases, const Contact& contact, con
   cases.push_back({"pair of radii one ulp smaller " + where, pair_at(first, second, box, less, less)});
 }
 
-// The second sphere of a pair lies beside the first, across faces, across a corner, or in other images. All coordinates are sums of
-// few powers of two, so they are exact.
+// The second sphere of a pair is next to the first, across faces, across a corner, or in other images. All coordinates are sums of
+// a few powers of two, so they are exact.
 void add_touching_pairs(std::vector<HardSphereCase>& cases) {
   const std::array<Image, 5> images = {{{"inside", {inside, inside, inside}, {0, 0, 0}},
                                         {"across a face", {face, inside, inside}, {-1, 0, 0}},
@@ -135,14 +135,14 @@ void add_touching_pairs(std::vector<HardSphereCase>& cases) {
     cases.push_back({fmt::format("pair one ulp farther, axis {}", axis), pair_at(origin, farther, cube(8.0), 0.5, 0.5)});
   }
   cases.push_back({"coincident pair", pair_at({1.0, 2.0, 3.0}, {1.0, 2.0, 3.0 + 8.0}, cube(8.0), 0.5, 0.5)});
-  // A whole vector of touching spheres: a row around the box.
+  // A full vector of touching spheres: a row around the box.
   Configuration row{cube(16.0), {}, {}, {}};
   for (int i = 0; i < 16; ++i) add_sphere(row, Sizes::equal, {static_cast<double>(i), 0.0, 15.5});
   cases.push_back({"row of touching spheres around the box", row});
 }
 
-// Spheres anywhere, each with a partner whose distance from contact is 1e-2 to 1e-16 of it, on either side, or no more than
-// rounding: what a filter in lower precision must not lose, and what one fused operation would decide otherwise.
+// Spheres anywhere, each with a partner whose distance from contact is 1e-2 to 1e-16 of it, on either side, or within rounding. A
+// filter in lower precision must not lose such pairs, and a single fused operation would change the decision.
 Configuration near_contact(std::size_t n, const Box& box, Sizes sizes) {
   const CounterRandom random(seed, RandomStream::displacements);
   Configuration configuration{box, {}, {}, {}};
@@ -184,7 +184,7 @@ void add_boxes(std::vector<HardSphereCase>& cases) {
         cases.push_back({name("cube"), near_contact(n, cube(length), sizes)});
         cases.push_back({name("box"), near_contact(n, {{1.3 * length, length, 1.1 * length}}, sizes)});
       }
-    // Half a box apart: two images at the same distance.
+    // The spheres are half a box apart: two images are at the same distance.
     Configuration halves = pair_at({0.0, 0.0, 0.0}, {0.5 * twice, 0.0, 0.0}, cube(twice), 0.25 * twice, 0.25 * twice);
     cases.push_back({fmt::format("{} pair touching in two images", to_string(sizes)), halves});
     halves.positions[3] = std::nextafter(halves.positions[3], 10.0);

@@ -28,7 +28,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // Pairs of particles in the user's order, sorted.
 using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
-// The number of pairs in one but not in both; duplicates count too.
+// The number of pairs that are in only one of the lists; duplicates count too.
 double wrong_pairs(const Pairs& a, const Pairs& b) {
   Pairs different;
   std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(different));
@@ -50,7 +50,7 @@ struct Prepared {
     for (std::size_t i = 0; i < c.size(); ++i) particle_of[layout.slot_of(i)] = i;
   }
 
-  // Sorted pairs of particles; (N, N) for a pair that is none, out of order or with padding.
+  // Sorted pairs of particles; (N, N) for an invalid pair: out of order or with padding.
   template <class SlotPairs>
   Pairs to_particles(const SlotPairs& slots, std::size_t count) const {
     Pairs pairs;
@@ -74,7 +74,7 @@ double largest_radius(const Configuration& configuration) {
   return configuration.radii.empty() ? 0.0 : *std::max_element(configuration.radii.begin(), configuration.radii.end());
 }
 
-// The reach beyond contact within which the nearest image is the only one.
+// The reach beyond contact up to which only the nearest image matters.
 double room(const Configuration& configuration) {
   return std::max(0.0, 0.5 * configuration.box.shortest() - 2.0 * largest_radius(configuration));
 }
@@ -104,7 +104,8 @@ struct AllPairsChecks {
   }
 
  private:
-  // With room for half of the pairs, all are counted, the half written is right, and nothing is written beyond.
+  // If there is room for half of the pairs only, all pairs are counted, the written half is right, and nothing is written beyond
+  // it.
   void run_truncated(const std::string& name, const Prepared& prepared, HardSphereOverlap& spheres) {
     const Configuration& c = prepared.configuration;
     const std::size_t slots = prepared.layout.slots(), float_slots = (slots + 15) / 16 * 16;
@@ -124,13 +125,13 @@ struct AllPairsChecks {
   }
 };
 
-// The largest force of one contact in the reference: the scale of its rounding.
+// The largest force of one contact in the reference: its rounding scales with it.
 double force_scale(kernels::ContactPotential potential, double s) {
   return potential == kernels::ContactPotential::cubic ? s * s : s;
 }
 
-// The reference's formula on the reference's overlaps. Where r/s rounds to 1 the pair overlaps all the same, by r^2 < s^2, and is
-// taken to be just inside contact: the linear force does not vanish there.
+// The reference's formula on the reference's overlaps. If r/s rounds to 1, the pair still overlaps by r^2 < s^2 and is treated as
+// just inside contact, where the linear force does not vanish.
 std::vector<double> expected_forces(const std::vector<reference::Overlap>& overlaps, const Configuration& configuration,
                                     reference::FictitiousPotential potential) {
   std::vector<double> forces(3 * configuration.size(), 0.0);
@@ -163,8 +164,8 @@ struct ListChecks {
                Check(table, "sphere_contact_forces linear", tolerance::contact_force),
                Check(table, "sphere_contact_forces cubic", tolerance::contact_force)} {}
 
-  // A list is built once and used while the particles move farther and farther: by thousandths of the skin, within half
-  // of it, at half of it and, in the end, anywhere. No overlap may be missed.
+  // A list is built once and used while the particles move further and further: by thousandths of the skin, by less than half of
+  // it, by half of it and, in the end, anywhere. No overlap may be missed.
   void run(const std::string& name, const Prepared& prepared, const kernels::KernelTable& table) {
     const Configuration& c = prepared.configuration;
     const CounterRandom random(3, RandomStream::displacements);
@@ -233,7 +234,7 @@ struct AvoidanceChecks {
         sum(table, "sphere_avoidance_trial sum", tolerance::avoidance),
         trial(table, "sphere_avoidance_trial trial", tolerance::avoidance) {}
 
-  // `still`: of how many particles one has no force and no sum yet.
+  // `still`: every still-th slot has no force and no sum yet.
   void run(std::size_t slots, std::size_t still, bool forces, const kernels::KernelTable& table) {
     AlignedArray position = random_array(3 * slots, 1, 10.0), sums = random_array(3 * slots, 2, 0.2),
                  force = random_array(3 * slots, 3, forces ? 0.7 : 0.0);

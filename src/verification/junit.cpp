@@ -10,7 +10,7 @@
 namespace lanescape {
 namespace {
 
-// For attributes; XML 1.0 has no way to write the other control characters, so that they become question marks.
+// Escapes text for attributes. XML 1.0 cannot represent the other control characters, so they become question marks.
 std::string escape(std::string_view text) {
   std::string escaped;
   for (const char c : text) switch (c) {

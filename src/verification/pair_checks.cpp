@@ -33,8 +33,8 @@ double tensor_deviation(const std::array<double, 6>& tensor, const reference::Ev
   return worst;
 }
 
-// Per particle relative to its largest component: a component that happens to be small inherits the rounding of the
-// positions from the others. Padding must stay zero, for the vector algebra sums over it.
+// Per particle, relative to its largest component, because a component that happens to be small inherits the rounding of positions
+// from the others. Padding must stay zero, because the vector algebra sums over it.
 double gradient_deviation(const AlignedArray& gradient, const ParticleLayout& layout, const reference::Evaluation& expected) {
   const std::vector<double> in_users_order = layout.to_user(gradient);
   double worst = 0.0;
@@ -51,7 +51,7 @@ double gradient_deviation(const AlignedArray& gradient, const ParticleLayout& la
   return clean ? worst : std::numeric_limits<double>::infinity();
 }
 
-// What is held against the reference of the kernels of one way of finding pairs; `prefix` begins their names.
+// The checks of the kernels of one search method against the reference; `prefix` starts the names of the results.
 struct SearchChecks {
   SearchChecks(const kernels::KernelTable& table, const std::string& prefix)
       : energy(table, prefix + "energy", tolerance::pair_sums),
@@ -75,7 +75,7 @@ struct SearchChecks {
     const ParticleLayout layout = ParticleLayout::in_users_order(configuration, model.species.size());
     const AlignedArray positions = layout.to_slots(configuration.positions);
     PairInteraction interaction(model, configuration.box, layout, table, {.search = search});
-    // Whatever a kernel does not write must show.
+    // NaN makes values visible that a kernel does not write.
     AlignedArray g(layout.dimension(), std::numeric_limits<double>::quiet_NaN()), g_stress = g, g_only = g;
     const double e = interaction.energy(positions);
     interaction.gradient(positions, g_only);
@@ -96,7 +96,7 @@ struct SearchChecks {
     gradient_bits.add(name, (g_only != g) + (g_stress != g));
   }
 
-  // Over all pairs no kernel leaves the energy out.
+  // Over all pairs no kernel omits the energy, so the bits of gradients are compared for lists only.
   std::vector<Deviation> deviations(PairSearch search) const {
     std::vector<Deviation> all;
     for (const Check* check : {&energy, &gradient_energy, &gradient, &gradient_virial, &stress_energy, &stress_gradient,
@@ -115,8 +115,8 @@ std::vector<Deviation> verify_search(const kernels::KernelTable& table, const st
   return checks.deviations(search);
 }
 
-// Whether some pair is so near to the cutoff that in single precision it may be on the other side. Untruncated, all energies at a
-// cutoff beyond the minimum have one sign.
+// Whether a pair is so close to the cutoff that single precision may put it on the other side. Without a shift, all pair energies
+// at a cutoff beyond the minimum have the same sign, so they cannot cancel.
 bool has_pair_at_cutoff(const PairModel& model, const Configuration& configuration) {
   PairModel nearer = model;
   nearer.truncation = Truncation::plain;

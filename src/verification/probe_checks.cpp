@@ -12,7 +12,7 @@
 namespace lanescape {
 namespace {
 
-// Few of the large cases: the reference looks at every particle.
+// Only a few of the large cases, because the reference visits every particle.
 constexpr std::size_t probes_per_case = 12;
 
 bool fits_probe(const PairModel& model, const Box& box) {
@@ -30,7 +30,8 @@ Configuration without(const Configuration& all, std::size_t particle) {
   return rest;
 }
 
-// At how many of some random places the kernel and the reference differ. All are asked at once, and then what follows the first.
+// The number of random positions at which kernel and reference differ. The first query covers all positions; each later query
+// covers those after the last clear one.
 double wrongly_clear(const PairModel& model, const Configuration& configuration, const kernels::KernelTable& table) {
   constexpr std::size_t places = 40;
   constexpr double clear_energy = 60.0;

@@ -8,8 +8,8 @@
 
 namespace lanescape {
 
-// The probe kernels of a table against the scalar reference: particles of each case are taken out one by one, and what is left is
-// probed where they were. Cases under the minimum-image rule are left out where a probe has no such rule.
+// Compares the probe kernels of a table with the scalar reference: particles of each case are removed one by one, and the remaining
+// fluid is probed at their positions. Minimum-image cases are skipped if the probe has no such rule.
 std::vector<Deviation> verify_probes(const kernels::KernelTable& table, const std::vector<PairCase>& cases,
                                      const std::string& form = "lennard_jones");
 

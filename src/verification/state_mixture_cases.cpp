@@ -28,7 +28,7 @@ double filter_of(Filter filter, std::size_t s, std::size_t t) {
   return 0.0;
 }
 
-// A soft core and a well that ends with zero value and slope.
+// A soft core and a well that goes to zero with zero slope at its end.
 StateMixtureModel::Table table_of(double strength, double cutoff) {
   StateMixtureModel::Table table{0.6, cutoff, {}};
   constexpr int count = 60;
@@ -90,7 +90,7 @@ StateMixtureModel state_mixture_model(const Variant& v, double cutoff) {
     const auto x = static_cast<double>(s);
     model.species.push_back({names[s], 1.0, 1.0 / static_cast<double>(v.species)});
     StateMixtureModel::States states{{1.4, 0.14, 2.1 - 0.2 * x}, {}, {}};
-    // The last species of several has a state less.
+    // If there are several species, the last has one state less.
     const std::size_t count = s > 0 && s + 1 == v.species ? std::max<std::size_t>(v.states, 2) - 1 : v.states;
     for (std::size_t a = 0; a < count; ++a) {
       const auto y = static_cast<double>(a);

@@ -45,7 +45,7 @@ double largest_reach(const StateMixtureModel& model) {
   return reach;
 }
 
-// The worst deviation of a gradient, relative to the absolute forces on each particle; infinite if padding is not zero.
+// The largest deviation of a gradient, relative to the absolute forces on each particle; infinite if padding is not zero.
 double gradient_deviation(const AlignedArray& gradient, const ParticleLayout& layout, const reference::StateEvaluation& expected) {
   const std::vector<double> g = layout.to_user(gradient);
   double worst = 0.0;
@@ -91,7 +91,7 @@ struct PotentialChecks {
   }
 };
 
-// The potentials of all states of species s with all states of species t, and where they end.
+// The potentials between all states of species s and all states of species t, and their ranges.
 void add_potentials(reference::StateSystem& system, const StateMixtureModel& model, std::size_t s, std::size_t t) {
   double cutoff = 0.0;
   for (std::size_t a = 0; a < system.states; ++a)
@@ -178,7 +178,7 @@ struct MixtureChecks {
     const ParticleLayout layout(configuration.species, model.species.size());
     const AlignedArray positions = layout.to_slots(configuration.positions);
     StateMixture interaction(model, configuration.box, layout, table, {});
-    // NaN shows where nothing is written.
+    // NaN makes values visible that are not written.
     AlignedArray g(layout.dimension(), std::numeric_limits<double>::quiet_NaN()), g_stress = g;
     const double e = interaction.energy(positions);
     const auto with_gradient = interaction.energy_and_gradient(positions, g);

@@ -108,7 +108,7 @@ struct VectorAlgebraChecks {
 
 std::vector<Deviation> verify_vector_algebra(const kernels::KernelTable& table) {
   VectorAlgebraChecks checks(table);
-  // The short ones leave each remainder of the four partial sums; the long ones show how errors grow.
+  // The short lengths leave each remainder of the four partial sums; the long ones show how errors grow.
   for (const std::size_t slots : {0U, 8U, 16U, 24U, 32U, 40U, 48U, 56U, 64U, 72U, 112U, 264U, 1000U}) {
     const std::string name = fmt::format("3 x {} slots", slots);
     const AlignedArray a = random_array(3 * slots, 1), b = random_array(3 * slots, 2), c = random_array(3 * slots, 3);
