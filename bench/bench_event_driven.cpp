@@ -1,5 +1,5 @@
-// Collisions per second of event-driven dynamics in a liquid of hard spheres, every available instruction set. Each run is
-// checked before it is timed: no overlap beyond rounding, energy and momentum as before, and the same bits as with the least
+// Collisions per second of event-driven dynamics in a liquid of hard spheres, for every available instruction set. Each run is
+// checked before it is timed: no overlap beyond rounding, energy and momentum conserved, and the same bits as with the simplest
 // instruction set.
 
 #include <fmt/format.h>

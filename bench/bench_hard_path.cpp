@@ -1,5 +1,5 @@
-// A whole path of binary hard spheres by collision avoidance, N = 108, DeltaR = 108, with [G]'s own steps. End points are
-// made here by event-driven dynamics. The instruction set is the best there is, or LANESCAPE_ISA.
+// A whole path of binary hard spheres by collision avoidance, N = 108, DeltaR = 108, with [G]'s own step lengths. Event-driven
+// dynamics generates the end points. The instruction set is the best available one, or LANESCAPE_ISA.
 
 #include <fmt/format.h>
 
@@ -29,7 +29,7 @@ const ConfigurationPair& ends(double packing_fraction) {
   return made.emplace(packing_fraction, run.pairs.front()).first->second;
 }
 
-// What is wrong with a path by the scalar reference and by geometry; empty if nothing is.
+// Checks a path by the scalar reference and by geometry; returns the first error, or an empty string.
 std::string check(const PathResult& path) {
   if (path.outcome != Outcome::reached) return fmt::format("{}: {}", to_string(path.outcome), path.reason);
   for (const Configuration& frame : path.frames)

@@ -1,6 +1,6 @@
-// Finding places of a given energy in a Lennard-Jones fluid of 10^4 particles: every place is checked against the scalar reference
-// before anything is timed. Fluids are melted for 5 time units, cutoff 3 with long-range corrections, targets the mean excess
-// energy.
+// Finds positions with a given energy in a Lennard-Jones fluid of 10^4 particles. Positions are checked against the scalar
+// reference before anything is timed. Fluids are melted for 5 time units; the cutoff is 3 with long-range corrections; the target
+// is the mean excess energy.
 
 #include <cmath>
 #include <cstdio>
@@ -42,7 +42,7 @@ const Fluid& fluid_at(double density, double temperature) {
   return made.emplace(std::pair{density, temperature}, std::move(fluid)).first->second;
 }
 
-// Exits where a place has not the energy its record says.
+// Checks eight of the positions; exits if one does not have the recorded energy.
 void check_places(const Fluid& fluid, const std::vector<Insertion>& places, const InsertionOptions& options) {
   for (std::size_t k = 0; k < places.size(); k += places.size() / 8) {
     const double energy = probe_reference(fluid.model, fluid.configuration, places[k].position, 0).energy;
@@ -61,7 +61,7 @@ InsertionOptions options_for(const Fluid& fluid, InsertionMethod method) {
   return options;
 }
 
-// Time per place in a fluid that stays as it is; density and temperature in hundredths.
+// Time per position found in a fluid that does not change; density and temperature in hundredths.
 void places(benchmark::State& state, InsertionMethod method) {
   const Fluid& fluid = fluid_at(0.01 * static_cast<double>(state.range(0)), 0.01 * static_cast<double>(state.range(1)));
   const ProbeField field(fluid.model, fluid.configuration, 0, kernel_table(choose_isa("auto")));
@@ -80,7 +80,7 @@ void places(benchmark::State& state, InsertionMethod method) {
   state.counters["evaluations"] = evaluations / searches;
 }
 
-// Time per insertion, the particles put into the fluid: one per hundred there are. The fluid is copied outside the time.
+// Time per insertion, where inserted particles stay in the fluid: one per hundred present. Copying the fluid is not timed.
 void insertions(benchmark::State& state, InsertionMethod method) {
   const Fluid& fluid = fluid_at(0.01 * static_cast<double>(state.range(0)), 0.01 * static_cast<double>(state.range(1)));
   const ProbeField field(fluid.model, fluid.configuration, 0, kernel_table(choose_isa("auto")));
@@ -101,7 +101,7 @@ void insertions(benchmark::State& state, InsertionMethod method) {
       benchmark::Counter(inserted * 1e-6, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-// One evaluation of energy and gradient at random places, and of the energy alone.
+// One evaluation of energy and gradient at random positions, and of the energy alone.
 void probes(benchmark::State& state) {
   const Fluid& fluid = fluid_at(0.01 * static_cast<double>(state.range(0)), 2.5);
   const ProbeField field(fluid.model, fluid.configuration, 0, kernel_table(choose_isa("auto")));

@@ -1,10 +1,10 @@
 // V(R), with its gradient and with the stress, of a Kob-Andersen liquid: every available instruction set, both image rules.
 //
-// Counters: `pairs` N (N - 1)/2; `ns_per_pair`; `x_limit` how many times the arithmetic limit an evaluation takes.
-// The limit is the time of the multiply-adds and products that a vector of pairs cannot do without, at the rate this machine
-// was measured to do them: 3 for r^2, 2 for r^-6 from 1/r^2, 1 for the sum of r^-12 (energy: 6); 3 for -u'(r)/r and 6 for the
-// gradients of both particles (15); 9 for the tensor (24). Bare sums, the division and the choice of the image are left out, and
-// so is the second image of the rule `all` in a small box: with fma no kernel can reach 1.
+// Counters: `pairs` N (N - 1)/2; `ns_per_pair`; `x_limit`, the time of an evaluation divided by the arithmetic limit. The limit is
+// the time of the multiply-adds and products that a vector of pairs needs at least, at the rate measured on this machine: 3 for
+// r^2, 2 for r^-6 from 1/r^2, 1 for the sum of r^-12 (energy: 6); 3 for -u'(r)/r and 6 for the gradients of both particles (15); 9
+// for the tensor (24). It leaves out plain additions, the division and the choice of the image, and the second image of the rule
+// `all` in a small box: with fma no kernel can reach 1.
 
 #include <fmt/format.h>
 
@@ -44,7 +44,7 @@ double pair_count(std::size_t particles) {
   return 0.5 * n * (n - 1.0);
 }
 
-// Times every iteration of a benchmark; the processor's time, as others use the machine too. Seconds per iteration.
+// Times every iteration of a benchmark by processor time, because the machine may be shared. Seconds per iteration.
 template <class Body>
 double timed(benchmark::State& state, Body body) {
   const std::clock_t start = std::clock();
@@ -61,7 +61,7 @@ void set_counters(benchmark::State& state, double pairs, double seconds) {
   state.counters["ns_per_pair"] = 1e9 * seconds / pairs;
 }
 
-// What is wrong with these kernels on this configuration; empty if nothing is.
+// Checks these kernels on this configuration; returns the error, or an empty string.
 std::string check(Isa isa, const PairModel& model, const Configuration& configuration) {
   for (const Deviation& d : verify_all_pairs(kernel_table(isa), {{"the benchmark's liquid", model, configuration}}))
     if (!d.passed()) return describe(d);
@@ -95,7 +95,7 @@ void evaluate(benchmark::State& state, Quantity quantity, std::size_t particles,
   state.counters["x_limit"] = seconds / limit;
 }
 
-// For scale: the scalar arbiter, which always does everything.
+// For comparison: the scalar reference, which always computes everything.
 void evaluate_scalar_reference(benchmark::State& state, std::size_t particles, ImageRule images) {
   const PairModel model = kob_andersen_with(images);
   const Configuration& configuration = liquid(particles);

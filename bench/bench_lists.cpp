@@ -1,16 +1,17 @@
-// Large systems: forces, energies, whole steps of molecular dynamics and of contour paths over neighbour lists, against the number
-// of particles and of threads.
+// Large systems: forces, energies, whole steps of molecular dynamics and of contour paths over neighbour lists, as functions of the
+// numbers of particles and of threads.
 //
 //     bench_lists [--configuration=FILE] [--model=kob-andersen|lennard-jones] [--benchmark_...]
 //
 // Without a file: Kob-Andersen at density 1.2 and Lennard-Jones at density 0.8442, T = 1, both truncated at 2.5 sigma and shifted.
-// Large liquids are a smaller one repeated along the axes: each particle then has the very surroundings of one in the small liquid.
-// Gradients of 64 particles are verified by the scalar reference before anything is timed. Names that end in -mixed are those in
-// mixed precision.
+// Large liquids are periodic copies of a smaller one, so each particle has exactly the same surroundings as in the small liquid.
+// The scalar reference verifies the gradients of 64 particles before anything is timed. Names that end in -mixed are in mixed
+// precision.
 //
 // Counters: `ns_per_particle` per evaluation or step; `ns_per_pair` per pair within the cutoff, each counted once; `gflops` of the
-// operations that such a pair cannot do without, once, 15 multiply-adds (bench_landscape.cpp), 6 where only the energy is wanted;
-// `fraction_of_peak` of the rate that this machine was measured to do them at, on as many cores; `flops_per_byte` against list,
+// operations that such a pair needs at least, 15 multiply-adds (bench_landscape.cpp), 6 for the energy alone; `fraction_of_peak`
+// relative to the measured rate of these operations on as many cores; `flops_per_byte`, where list, points, positions and gradients
+// count once each; `bytes_per_particle` of the list and its data.
 // points, positions and gradients once each; `bytes_per_particle` that the list and all that belongs to it take.
 
 #include <fmt/format.h>
@@ -39,18 +40,18 @@ namespace {
 constexpr double md_time_step = 0.005;
 
 struct Size {
-  std::size_t base, times;  // particles, and repetitions along each axis
+  std::size_t base, times;  // particles, and copies along each axis
 
   std::size_t particles() const { return base * times * times * times; }
 };
 
 constexpr Size sizes[] = {{256, 1}, {4000, 1}, {4000, 2}, {4000, 4}, {2048, 8}};
 
-// A liquid with a gradient that the reference has confirmed.
+// A liquid whose gradient the reference has verified.
 struct System {
   PairModel model;
   Configuration configuration;
-  std::string wrong;  // what is wrong with the gradient; empty if nothing is
+  std::string wrong;  // the error of the gradient; empty if there is none
   double pairs = 0.0;
 };
 
@@ -60,7 +61,7 @@ Configuration melt(const PairModel& model, std::size_t particles, double density
   return configuration;
 }
 
-// A particle, first, and all that is within reach of it, in a box so large that nothing else is.
+// A particle, stored first, and all particles within reach of it, in a box large enough to exclude other images.
 Configuration surroundings(const Configuration& all, std::size_t particle, double reach) {
   Configuration near{{{100.0, 100.0, 100.0}}, {all.species[particle]}, {50.0, 50.0, 50.0}};
   for (std::size_t j = 0; j < all.size(); ++j) {
@@ -116,13 +117,13 @@ System verified(const PairModel& model, Configuration configuration) {
   const ParticleLayout layout = ParticleLayout::in_space_order(system.configuration, model.species.size());
   PairInteraction interaction(model, system.configuration.box, layout, kernel_table(choose_isa("auto")),
                               {.search = PairSearch::list});
-  interaction.energy(layout.to_slots(system.configuration.positions));  // makes the list
+  interaction.energy(layout.to_slots(system.configuration.positions));  // builds the list
   system.wrong = check_gradient(system, Precision::double_precision) + check_gradient(system, Precision::mixed);
   system.pairs = count_pairs(*interaction.list(), model);
   return system;
 }
 
-// One is kept at a time: the largest take hundreds of megabytes.
+// Only one is kept at a time: the largest take hundreds of megabytes.
 const System& system_of(const std::string& key, const std::function<System()>& make) {
   static std::string kept;
   static System system;
@@ -145,7 +146,7 @@ Source generated(const std::string& model_name, Size size) {
   };
 }
 
-// Times every iteration of a benchmark by the clock; seconds per iteration.
+// Times every iteration of a benchmark by wall-clock time; seconds per iteration.
 template <class Body>
 double timed(benchmark::State& state, Body body) {
   double seconds = 0.0;
@@ -192,7 +193,7 @@ void evaluate(benchmark::State& state, Quantity quantity, const Setting& setting
     if (quantity == Quantity::force) interaction.gradient(positions, gradient);
     if (quantity == Quantity::all) benchmark::DoNotOptimize(interaction.energy_and_gradient(positions, gradient).energy);
   };
-  once();  // makes the list
+  once();  // builds the list
   const double seconds = timed(state, once);
   set_time_counters(state, system, setting.threads, seconds);
 
@@ -207,7 +208,7 @@ void evaluate(benchmark::State& state, Quantity quantity, const Setting& setting
   state.counters["bytes_per_particle"] = static_cast<double>(list.memory()) / n;
 }
 
-// The list made anew, by particles that jump there and back.
+// Rebuilds the list: particles move forth and back by the skin.
 void renew(benchmark::State& state, const Setting& setting) {
   const System& system = setting.source();
   const ParticleLayout layout = ParticleLayout::in_space_order(system.configuration, system.model.species.size());
@@ -228,7 +229,7 @@ void renew(benchmark::State& state, const Setting& setting) {
   set_time_counters(state, system, setting.threads, seconds);
 }
 
-// Whole steps of molecular dynamics at T = 1, lists made anew where they have to be.
+// Whole steps of molecular dynamics at T = 1; lists are rebuilt when needed.
 void step(benchmark::State& state, const Setting& setting) {
   const System& system = setting.source();
   const ParticleLayout layout = ParticleLayout::in_space_order(system.configuration, system.model.species.size());
@@ -243,7 +244,7 @@ void step(benchmark::State& state, const Setting& setting) {
   set_time_counters(state, system, setting.threads, seconds);
 }
 
-// Contour steps between two configurations of a trajectory, and how many times longer than V and its gradient one takes.
+// Contour steps between two configurations of a trajectory, and the ratio of their time to that of V and its gradient.
 void contour_step(benchmark::State& state, const Setting& setting) {
   const System& system = setting.source();
   const ParticleLayout layout = ParticleLayout::in_space_order(system.configuration, system.model.species.size());
@@ -282,7 +283,7 @@ std::vector<int> thread_counts() {
 }
 
 void register_system(const std::string& model, std::size_t particles, const Source& source) {
-  // Enough for a list to be renewed some times, whatever the size.
+  // Enough steps for several rebuilds of the list at any size.
   const auto steps = static_cast<benchmark::IterationCount>(std::max<std::size_t>(48, 1'000'000 / (particles + 1)));
   const auto add_in = [&](Precision precision, const std::string& what, Isa isa, int threads, auto body) {
     const auto name = fmt::format("{}/{}{}/N:{}/threads:{}/{}", model, what, precision == Precision::mixed ? "-mixed" : "",
@@ -308,7 +309,7 @@ void register_system(const std::string& model, std::size_t particles, const Sour
     }
 }
 
-// The value of --name=value, taken out of the arguments; empty if it is not there.
+// Removes --name=value from the arguments and returns the value; empty if it is not present.
 std::string take_option(int& argc, char** argv, std::string_view name) {
   std::string value;
   int kept = 1;

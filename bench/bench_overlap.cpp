@@ -1,5 +1,6 @@
-// Does a whole configuration of hard spheres overlap? From scratch over all pairs and by cells, and over the path finder's list, on
-// a liquid without overlaps, so that no early exit helps: every available instruction set, and the scalar reference for scale.
+// Tests whether a whole configuration of hard spheres overlaps: from scratch over all pairs and by cells, and over the path
+// finder's list. The liquid has no overlaps, so an early exit does not help. Every available instruction set, and the scalar
+// reference for comparison.
 
 #include <fmt/format.h>
 
@@ -17,7 +18,7 @@ namespace {
 
 enum class Form { all_pairs, cells, list };
 
-// What is wrong with these kernels on this liquid and on one with a particle pushed into its neighbour; empty if nothing is.
+// Checks these kernels on this liquid and on one where a particle overlaps its neighbour; returns the error, or an empty string.
 std::string check(const Configuration& liquid, Isa isa) {
   Configuration squeezed = liquid;
   for (double& radius : squeezed.radii) radius *= 1.01;

@@ -1,5 +1,5 @@
-// A whole path of Kob-Andersen's mixture, N = 108, T = 1, DeltaR = 108, with [C]'s own steps: the figure that [C]
-// table 1 gives in seconds. The instruction set is the best there is, or LANESCAPE_ISA.
+// A whole path of Kob-Andersen's mixture, N = 108, T = 1, DeltaR = 108, with [C]'s own step lengths, to compare with the seconds in
+// [C] table 1. The instruction set is the best available one, or LANESCAPE_ISA.
 
 #include <fmt/format.h>
 
@@ -32,7 +32,7 @@ double polyline_length(const std::vector<Configuration>& frames) {
   return length;
 }
 
-// What is wrong with a path by the scalar reference and by geometry; empty if nothing is.
+// Checks a path by the scalar reference and by geometry; returns the first error, or an empty string.
 std::string check(const PathResult& path, const PairModel& model, const PathMethod& method) {
   if (path.outcome != Outcome::reached) return fmt::format("{}: {}", to_string(path.outcome), path.reason);
   const double allowed = method.word == std::string("escape") ? EscapeStepper::Options{}.tolerance : 0.0;

@@ -1,14 +1,15 @@
-// State-probability interactions: three passes over pairs against one of plain Lennard-Jones on the same liquid, against the number
-// of particles and of threads; and in scalar code three passes against the nested evaluation that they replace, on the same list.
+// State-probability interactions: three passes over pairs compared with one pass of plain Lennard-Jones on the same liquid, as
+// functions of the numbers of particles and of threads. In scalar code: three passes compared with the nested evaluation that they
+// replace, on the same list.
 //
 //     bench_state_mixture [--benchmark_...]
 //
-// A Lennard-Jones liquid at density 0.8 and T = 1, in two states whose local densities and potentials reach 2.5 sigma, with the
-// entropy term. Energy and gradient of 500 particles are verified by both forms of the scalar reference before anything is timed.
+// A Lennard-Jones liquid at density 0.8 and T = 1 with two states, whose local densities and potentials reach 2.5 sigma, with the
+// entropy term. Both forms of the scalar reference verify energy and gradient of 500 particles before anything is timed.
 //
-// Counters: `ns_per_particle` per evaluation of energy and gradient. scalar_passes gives for each cutoff the neighbours within the
-// list and what nested evaluation takes as a multiple of three passes; `exponent_*` is the slope of log(time) against
-// log(neighbours), 1 where time is linear in neighbours and 2 where it is quadratic.
+// Counters: `ns_per_particle` per evaluation of energy and gradient. scalar_passes gives for each cutoff the number of neighbours
+// in the list and the time of the nested evaluation divided by that of three passes. `exponent_*` is the slope of log(time) against
+// log(neighbours): 1 for a time linear in neighbours and 2 for a quadratic one.
 
 #include <fmt/format.h>
 
@@ -32,11 +33,11 @@ namespace {
 
 constexpr double density = 0.8;
 
-// Potentials and densities reach as far.
+// Potentials and densities have the same cutoff.
 StateMixtureModel two_states(double cutoff) {
   StateMixtureModel model = liquid_vapour();
   model.cutoff = model.states[0].switching.cutoff = cutoff;
-  // Near the middle, where nothing is saturated: two thirds of the neighbours within the cutoff.
+  // Parameters near the middle, where nothing is saturated: two thirds of the neighbours within the cutoff.
   const double neighbours = 4.0 / 3.0 * std::numbers::pi * density * cutoff * cutoff * cutoff;
   model.states[0].switching.threshold = 0.9 * cutoff;
   model.states[0].switching.width = 0.1 * cutoff;
@@ -55,10 +56,10 @@ const Configuration& small_liquid(std::size_t particles) {
   return made.emplace(particles, std::move(liquid)).first->second;
 }
 
-// 4000 particles, repeated along the axes.
+// Periodic copies of 4000 particles.
 Configuration liquid_of(std::size_t times) { return repeated(small_liquid(4000), times); }
 
-// The neighbours of a list, skin and all, as the reference takes them.
+// The neighbours of a list, including the skin, in the reference's format.
 reference::StateNeighbours neighbours_of(const NeighbourList& list, const ParticleLayout& layout, const Configuration& c) {
   std::vector<std::size_t> particle_of(layout.slots());
   for (std::size_t i = 0; i < layout.size(); ++i) particle_of[layout.slot_of(i)] = i;
@@ -78,7 +79,7 @@ reference::StateNeighbours neighbours_of(const NeighbourList& list, const Partic
   return neighbours;
 }
 
-// Empty if three passes by kernels, by the reference and its nested evaluation agree on 500 particles.
+// Empty if the kernels' three passes, the reference's three passes and its nested evaluation agree on 500 particles.
 const std::string& verdict() {
   static const std::string wrong = [] {
     const Configuration& c = small_liquid(500);
@@ -117,7 +118,7 @@ void time_lennard_jones(benchmark::State& state, std::size_t times, int threads)
   PairInteraction interaction(lennard_jones(), c.box, layout, kernel_table(choose_isa("auto")),
                               {.search = PairSearch::list, .threads = threads});
   AlignedArray gradient(layout.dimension());
-  interaction.energy_and_gradient(positions, gradient);  // makes the list
+  interaction.energy_and_gradient(positions, gradient);  // builds the list
   for (auto _ : state) benchmark::DoNotOptimize(interaction.energy_and_gradient(positions, gradient));
   per_particle(state, c.size());
 }
@@ -131,12 +132,12 @@ void time_three_passes(benchmark::State& state, std::size_t times, int threads) 
   options.threads = threads;
   StateMixture interaction(two_states(2.5), c.box, layout, kernel_table(choose_isa("auto")), options);
   AlignedArray gradient(layout.dimension());
-  interaction.energy_and_gradient(positions, gradient);  // makes the list
+  interaction.energy_and_gradient(positions, gradient);  // builds the list
   for (auto _ : state) benchmark::DoNotOptimize(interaction.energy_and_gradient(positions, gradient));
   per_particle(state, c.size());
 }
 
-// One of the passes alone.
+// A single pass.
 enum class Pass { density, pairs, density_force };
 
 void time_pass(benchmark::State& state, Pass pass) {
@@ -148,7 +149,7 @@ void time_pass(benchmark::State& state, Pass pass) {
   AlignedArray gradient(layout.dimension()), slopes(2 * layout.slots()), values(layout.slots(), 0.5);
   std::fill(sites.site_states().p.begin(), sites.site_states().p.end(), 0.5);
   sites.put_states();
-  parts.order_parameter->evaluate(sites, values);  // says who is near
+  parts.order_parameter->evaluate(sites, values);  // builds the list of near neighbours
   std::fill(values.begin(), values.end(), 0.5);
   StateSums sums{StateSums::Wanted::gradient, gradient, slopes};
   for (auto _ : state) {
@@ -170,7 +171,7 @@ double seconds_of(const std::function<void()>& action) {
   return best;
 }
 
-// The slope of the least-squares line.
+// The slope of a least-squares line.
 double slope_of(const std::vector<double>& x, const std::vector<double>& y) {
   double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
   for (std::size_t k = 0; k < x.size(); ++k) {

@@ -33,8 +33,8 @@ inline PairModel kob_andersen_with(ImageRule images) {
   return model;
 }
 
-// A liquid made from a lattice: `steps` steps of molecular dynamics at each of these temperatures, put right every so many of them.
-// The same bits whichever kernels are timed later, if it is the least instruction set that makes it.
+// A liquid made from a lattice: `steps` steps of molecular dynamics at each of these temperatures, with velocities rescaled every
+// `rescale_interval` steps. With the default instruction set the result has the same bits whichever kernels are timed later.
 inline Configuration melted(const PairModel& model, std::size_t particles, double density,
                             std::initializer_list<double> temperatures, int steps, int rescale_interval, double time_step = 2e-3,
                             Isa isa = available_isas().front()) {
@@ -52,7 +52,7 @@ inline Configuration melted(const PairModel& model, std::size_t particles, doubl
   return configuration;
 }
 
-// A configuration repeated along the axes: each particle has the very surroundings of one in the base.
+// Periodic copies of a configuration: each particle has exactly the same surroundings as in the base.
 inline Configuration repeated(const Configuration& base, std::size_t times) {
   Configuration whole{base.box, {}, {}};
   for (double& length : whole.box.length) length *= static_cast<double>(times);
@@ -65,7 +65,7 @@ inline Configuration repeated(const Configuration& base, std::size_t times) {
   return whole;
 }
 
-// A Kob-Andersen liquid of density 1.2: melted for 5 time units at T = 5 and cooled for as many at T = 1.
+// A Kob-Andersen liquid of density 1.2: melted for 5 time units at T = 5 and then cooled for 5 time units at T = 1.
 inline const Configuration& liquid(std::size_t particles) {
   static std::map<std::size_t, Configuration> made;
   const auto found = made.find(particles);
@@ -73,8 +73,8 @@ inline const Configuration& liquid(std::size_t particles) {
   return made.emplace(particles, melted(kob_andersen(), particles, 1.2, {5.0, 1.0}, 5000, 500, 1e-3)).first->second;
 }
 
-// A liquid of hard spheres: grown from a dilute melt and equilibrated for 200 collisions per particle. The same bits whichever
-// kernels are timed later.
+// A liquid of hard spheres: grown from a dilute melt and equilibrated for 200 collisions per particle. It has the same bits
+// whichever kernels are timed later.
 inline const Configuration& hard_liquid(const HardSphereModel& model, std::size_t particles, double packing_fraction) {
   static std::map<std::tuple<std::string, std::size_t, double>, Configuration> made;
   const auto key = std::make_tuple(model.name, particles, packing_fraction);
@@ -90,8 +90,8 @@ inline const Configuration& hard_liquid(const HardSphereModel& model, std::size_
   return made.emplace(key, std::move(start)).first->second;
 }
 
-// Seconds per multiply-add of whole vectors with all pipes full, the best of many short runs: what a loop that does nothing
-// else takes on this machine. Without fma, SSE2 and the portable leg, one counts for a product and a sum.
+// Seconds per multiply-add of whole vectors with all pipes full: the best of many short runs of a loop without other work. Without
+// fma (SSE2 and the portable instruction set) one multiply-add counts as a product and a sum.
 inline double seconds_per_vector_instruction(Isa isa) {
   static std::map<Isa, double> measured;
   const auto found = measured.find(isa);
@@ -108,7 +108,7 @@ inline double seconds_per_vector_instruction(Isa isa) {
   return measured.emplace(isa, best).first->second;
 }
 
-// What a benchmark's main does; 2 for arguments it does not know.
+// The main function of a benchmark; returns 2 for unknown arguments.
 inline int run_benchmarks(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;

@@ -1,5 +1,6 @@
-// What tools/check_instructions.py counts: ROUNDS evaluations of one hot operation on a fixed configuration, nothing printed and
-// nothing verified. The configurations are made by the least instruction set, so that all work on the same numbers.
+// The program whose instructions tools/check_instructions.py counts: ROUNDS evaluations of one hot operation on a fixed
+// configuration. It prints and verifies nothing. The simplest instruction set generates the configurations, so all instruction sets
+// work on the same numbers.
 
 #include <fmt/format.h>
 
@@ -38,13 +39,13 @@
 namespace lanescape::bench {
 namespace {
 
-// Keeps the compiler from leaving out what nothing reads.
+// Prevents the compiler from removing results that nothing reads.
 template <class T>
 void keep(const T& value) {
   asm volatile("" : : "g"(&value) : "memory");
 }
 
-// Both ends of a Kob-Andersen path, N = 108, T = 1, and what evaluates them.
+// Both ends of a Kob-Andersen path, N = 108, T = 1, and what is needed to evaluate them.
 struct SoftLiquid {
   PairModel model = kob_andersen();
   std::vector<Frame> frames = read_frames(LANESCAPE_BENCH_DATA_DIR "/ka108-T1-pair.extxyz", model);
@@ -59,7 +60,7 @@ struct SoftLiquid {
   }
 };
 
-// Binary hard spheres, N = 108, packing fraction 0.49: a lattice after 20 collisions per particle, and after as many again.
+// Binary hard spheres, N = 108, packing fraction 0.49: a lattice after 20 collisions per particle, and after 20 more.
 struct HardLiquid {
   Configuration start = hard_sphere_start(hard_sphere_binary(), 108, 0.49, Arrangement::random, 1);
   EventDriven dynamics{start, std::vector<double>(start.size(), 1.0), kernel_table(available_isas().front())};
@@ -82,7 +83,7 @@ struct HardLiquid {
   }
 };
 
-// Accepted steps of a path from its start.
+// Accepted steps of a path, from its start.
 template <class Stepper>
 void walk(const VectorAlgebra& algebra, Stepper stepper, const AlignedArray& start, const AlignedArray& goal, std::size_t particles,
           std::uint64_t steps) {
@@ -109,8 +110,8 @@ void lj_stress(Isa isa, std::uint64_t rounds) {
   for (; rounds > 0; --rounds) keep(interaction.energy_and_stress(liquid.positions, liquid.out));
 }
 
-// A list over Kob-Andersen's mixture, N = 500, a shaken lattice: as large as a count under valgrind allows, and large enough for
-// rows to be those of a large system.
+// A list for Kob-Andersen's mixture, N = 500, on a rattled lattice: as large as is practical under valgrind, and large enough for
+// rows like those of a large system.
 struct ListLiquid {
   PairModel model = kob_andersen();
   Configuration start = fcc_start(model, 500, 1.2, 1);
@@ -165,7 +166,7 @@ void lj_list_gradient_mixed(Isa isa, std::uint64_t rounds) {
   for (; rounds > 0; --rounds) keep(interaction.energy_and_gradient(liquid.positions, liquid.out));
 }
 
-// Three passes over the same lattice: two states with Lennard-Jones, or with tables.
+// Three passes over the same lattice: two states, with Lennard-Jones or with tables.
 void state_gradient(Isa isa, std::uint64_t rounds, bool tables) {
   ListLiquid liquid;
   StateMixtureModel model = liquid_vapour();
@@ -182,7 +183,7 @@ void state_gradient(Isa isa, std::uint64_t rounds, bool tables) {
 void state_lj_gradient(Isa isa, std::uint64_t rounds) { state_gradient(isa, rounds, false); }
 void state_table_gradient(Isa isa, std::uint64_t rounds) { state_gradient(isa, rounds, true); }
 
-// The list made anew, by particles that jump there and back.
+// Rebuilds the list: particles move forth and back.
 void neighbour_list(Isa isa, std::uint64_t rounds) {
   const ListLiquid liquid;
   NeighbourList list(liquid.start.box, liquid.layout, {2.5, 2.0, 2.0, 2.2}, default_skin, kernel_table(isa), 1);
@@ -204,7 +205,7 @@ void sphere_any_overlap(Isa isa, std::uint64_t rounds) {
   for (; rounds > 0; --rounds) keep(spheres.any_overlap(liquid.positions));
 }
 
-// What making a list costs.
+// The cost of building a list.
 void sphere_pairs_within(Isa isa, std::uint64_t rounds) {
   HardLiquid liquid;
   HardSphereOverlap spheres(liquid.start.box, liquid.layout, liquid.start.radii, kernel_table(isa));
@@ -217,7 +218,7 @@ void sphere_list_any_overlap(Isa isa, std::uint64_t rounds) {
   for (; rounds > 0; --rounds) keep(landscape.allowed(liquid.positions));
 }
 
-// Spheres a hundredth too large, so that some overlap, and the forces between those.
+// Spheres one per cent too large, so that some overlap, and the forces between them.
 void sphere_list_contacts(Isa isa, std::uint64_t rounds) {
   HardLiquid liquid;
   for (double& radius : liquid.start.radii) radius *= 1.01;
@@ -236,7 +237,7 @@ void avoidance_step(Isa isa, std::uint64_t rounds) {
   walk(landscape.algebra(), AvoidanceStepper(landscape, {}), liquid.positions, liquid.goal, liquid.start.size(), rounds);
 }
 
-// The first collision of each sphere of the liquid with those that are less than 0.6 away.
+// The first collision of each sphere of the liquid with the spheres whose gap is less than 0.6.
 void sphere_first_collision(Isa isa, std::uint64_t rounds) {
   const HardLiquid liquid;
   const std::vector<double> velocities = liquid.dynamics.velocities();
@@ -288,7 +289,7 @@ void displacement_moments(Isa isa, std::uint64_t rounds) {
   for (; rounds > 0; --rounds) keep(algebra.displacement_moments(liquid.positions, liquid.goal));
 }
 
-// Places at random in the same liquid.
+// Random positions in the same liquid.
 std::vector<double> random_places(const Box& box, std::uint64_t count) {
   const CounterRandom random(1, RandomStream::sites);
   std::vector<double> places;
@@ -316,8 +317,8 @@ void lj_probe_first_clear(Isa isa, std::uint64_t rounds) {
 struct Case {
   std::string_view name;
   void (*run)(Isa isa, std::uint64_t rounds);
-  // Over so many the counts are averaged: about 10^5 to 10^6 instructions, beside which the start of a program, a few hundred
-  // more or less, is nothing.
+  // The counts are averaged over this number of rounds: about 10^5 to 10^6 instructions, so that the few hundred instructions by
+  // which program starts differ are negligible.
   std::uint64_t rounds;
 };
 
@@ -349,7 +350,7 @@ constexpr Case cases[] = {
     {"displacement_moments", displacement_moments, 500},
 };
 
-constexpr int skipped = 77;  // an instruction set that is not here
+constexpr int skipped = 77;  // the instruction set is not available
 
 int run(std::string_view name, std::string_view isa_name, std::string_view rounds_word) {
   std::uint64_t rounds = 0;

@@ -49,7 +49,7 @@ class Lammps:
         self.launch = {1: []}
 
     def launch_command(self, processes):
-        """The command that starts the program on so many processes. Raises Failed if no mpirun can."""
+        """The command that starts the program on this number of processes. Raises Failed if no mpirun can."""
         if processes not in self.launch:
             if not self.launcher:
                 raise Failed("mpirun: not on PATH")
