@@ -1,5 +1,5 @@
-// A Lennard-Jones kernel of one's own: registered, verified on the cases that the library's kernels are verified on, then timed
-// beside them. docs/KERNELS.md walks through it.
+// A user's own Lennard-Jones kernel: it is registered, verified on the library's test cases, and then timed together with the
+// library's kernels. docs/KERNELS.md explains it.
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -27,11 +27,11 @@ using kernels::PairInput;
 using kernels::PairKernels;
 using kernels::PairOutput;
 
-// The kernel: energy, virial and gradient over all pairs and all images within the cutoff, without vectors.
+// The kernel: energy, virial and gradient over all pairs and all images within the cutoff, without vector instructions.
 void my_gradient(const PairInput& in, double* gradient, PairOutput& out) noexcept {
   out.energy = out.virial = 0.0;
   std::fill(gradient, gradient + 3 * in.slots, 0.0);
-  // The pairs' parameters are in this unit of length.
+  // The unit of length of the pair parameters.
   double scale[3], edge[3];
   for (int k = 0; k < 3; ++k) {
     scale[k] = in.unit == kernels::LengthUnit::box ? 1.0 / in.box[k] : 1.0;
@@ -69,7 +69,7 @@ void my_gradient(const PairInput& in, double* gradient, PairOutput& out) noexcep
           add_pair(i, j, in.pairs[s * in.block_count + t]);
 }
 
-// The same with a fault: one particle feels no force along x.
+// A faulty version: one particle feels no force along x.
 void faulty_gradient(const PairInput& in, double* gradient, PairOutput& out) noexcept {
   my_gradient(in, gradient, out);
   if (in.block_count > 0 && in.blocks[0].count > 0) gradient[in.blocks[0].begin + in.blocks[0].count - 1] = 0.0;
@@ -82,7 +82,7 @@ PairKernels kernels_with(decltype(PairKernels::gradient) gradient) {
   return kernels;
 }
 
-// The library's table with these kernels of Lennard-Jones, which it refers to.
+// The library's table with these Lennard-Jones kernels; `kernels` must outlive it.
 KernelTable table_with(const PairKernels& kernels, const char* name) {
   KernelTable table = kernel_table(available_isas().back());
   table.name = name;
@@ -90,7 +90,7 @@ KernelTable table_with(const PairKernels& kernels, const char* name) {
   return table;
 }
 
-// What the gradient of this table gives, against the scalar reference on every case; a line for each result.
+// Compares the gradient kernel of this table with the scalar reference on every case; prints a line per result.
 bool verified(const KernelTable& table) {
   bool passed = true;
   for (const Deviation& deviation : verify_all_pairs(table, pair_cases())) {
@@ -140,7 +140,7 @@ int main(int argc, char** argv) {
   const PairKernels my_kernels = kernels_with(my_gradient), faulty_kernels = kernels_with(faulty_gradient);
   const KernelTable mine = table_with(my_kernels, "mine");
   if (!verified(mine)) return 1;
-  // A check that finds no fault proves something only if it finds one where there is one.
+  // A check proves something only if it also finds a known fault.
   if (verified(table_with(faulty_kernels, "faulty"))) return 1;
 
   benchmark::Initialize(&argc, argv);

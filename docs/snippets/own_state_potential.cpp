@@ -1,6 +1,6 @@
-// A potential of one's own that depends on states: Gaussian cores whose height is that of the two states. It tells energy, gradient
-// and virial at fixed probabilities, and dU/dp; how probabilities come about it does not know. It goes with any there are, here
-// with the library's local densities.
+// A user's own state-dependent potential: Gaussian cores whose height depends on the two states. It computes energy, gradient and
+// virial at fixed probabilities, and dU/dp. It does not depend on how the probabilities are computed: any method works, here the
+// library's local densities.
 
 #include <cmath>
 #include <memory>
@@ -29,20 +29,20 @@ class GaussianCores final : public StatePotential {
         for (std::size_t b = 0; b < states; ++b) {
           const double height = std::sqrt(heights_[a] * heights_[b]);
           weight += p_i[a] * p_j[b] * height;
-          sums.slopes[i * states + a] += p_j[b] * height * energy;  // dU/dp_ia: in full, for the pair is i's
+          sums.slopes[i * states + a] += p_j[b] * height * energy;  // dU/dp_ia, in full: i gets it from each of its pairs
         }
-      sums.energy += 0.5 * weight * energy;  // every pair comes from both ends
+      sums.energy += 0.5 * weight * energy;  // every pair is visited from both ends
       for (std::size_t axis = 0; axis < 3; ++axis) sums.gradient[axis * slots + i] -= 2.0 * weight * core * d[axis];
       sums.add_virial(2.0 * weight * core, d, 0.5);
     });
   }
 
  private:
-  static constexpr double reach = 4.5;  // where the slope is nothing
+  static constexpr double reach = 4.5;  // where the slope is negligible
   std::vector<double> heights_;
 };
 
-// The library's densities and states, three of them, and this potential alone.
+// The library's densities with three states, and this potential alone.
 StateMixtureParts parts() {
   StateMixtureParts parts = make_parts(state_mixture_model({1, 3}));
   parts.potentials.clear();

@@ -1,5 +1,5 @@
-// A state probability of one's own: whether a site is in its first state follows from how ordered its surroundings are, here from
-// the number of its neighbours in a shell from 1.2 to 1.6 sigma. It goes with any potential there is; none is changed for it.
+// A user's own state probability: the probability of a site's first state depends on the order of its surroundings, here on the
+// number of neighbours in a shell from 1.2 to 1.6 sigma. It works with any potential, without changes to the potential.
 
 #include <cmath>
 #include <memory>
@@ -11,7 +11,7 @@ namespace {
 
 using namespace lanescape;
 
-// The order parameter: one number for each site, and how a derivative with respect to it becomes a gradient.
+// The order parameter: one number per site, and how a derivative with respect to it becomes a gradient.
 class ShellNumber final : public OrderParameter {
  public:
   std::vector<double> reaches() const override { return {reach}; }  // one species
@@ -26,10 +26,10 @@ class ShellNumber final : public OrderParameter {
     const std::size_t slots = sites.layout().slots();
     sites.for_each_pair([&](std::size_t i, std::size_t j, const std::array<double, 3>& d) {
       const double r = std::hypot(d[0], d[1], d[2]);
-      // Site i is moved with respect to j in the sums of both.
+      // Moving site i relative to j changes the sums of both.
       const double slope = (multipliers[i] + multipliers[j]) * bell(r).slope;
       for (std::size_t axis = 0; axis < 3; ++axis) sums.gradient[axis * slots + i] += slope / r * d[axis];
-      sums.add_virial(-slope / r, d, 0.5);  // the pair comes twice
+      sums.add_virial(-slope / r, d, 0.5);  // each pair is visited twice
     });
   }
 
@@ -38,7 +38,7 @@ class ShellNumber final : public OrderParameter {
   struct Bell {
     double value, slope;
   };
-  // (1 - x^2)^3 within the shell: smooth where it ends.
+  // (1 - x^2)^3 within the shell: smooth at its ends.
   static Bell bell(double r) {
     const double x = (r - middle) / half_width, inside = 1.0 - x * x;
     if (inside <= 0.0) return {0.0, 0.0};
@@ -46,7 +46,7 @@ class ShellNumber final : public OrderParameter {
   }
 };
 
-// And how the probabilities follow from it: a logistic function.
+// The response: the probabilities are a logistic function of the order parameter.
 class Logistic final : public StateResponse {
  public:
   std::size_t states() const override { return 2; }
@@ -61,7 +61,7 @@ StateMixtureParts parts() {
   StateMixtureParts parts;
   parts.order_parameter = std::make_unique<ShellNumber>();
   parts.response = std::make_unique<Logistic>();
-  // Tables of the library, as they are.
+  // Tables of the library, unchanged.
   parts.potentials =
       make_parts(state_mixture_model({1, 2, StateMixtureVariant::Filter::every, StateMixtureVariant::Potentials::tables}))
           .potentials;
@@ -75,6 +75,6 @@ int main() {
   Configuration fluid = state_mixture_fluid(64, 1);
   fluid.wrap();
   const auto right = snippets::check_forces(parts, fluid, 1);
-  // Knots of the tables are jumps of a third derivative, which differences see.
+  // At the knots of the tables the third derivative jumps, which limits the accuracy of differences.
   return right.worst_force < 1e-6 && right.virial < 1e-6 ? 0 : 1;
 }

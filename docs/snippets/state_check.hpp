@@ -12,11 +12,11 @@
 #include "interaction/state/state_mixture.hpp"
 #include "verification/state_mixture_cases.hpp"
 
-// What both examples of state-probability interactions do at their end: hold forces and virial against differences of the energy.
+// Shared by both examples of state-probability interactions: compares forces and virial with differences of the energy.
 namespace lanescape::snippets {
 
 struct Checked {
-  double worst_force = 0.0;  // relative to the largest
+  double worst_force = 0.0;  // relative to the largest force
   double virial = 0.0;       // relative
 };
 
