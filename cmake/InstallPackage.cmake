@@ -1,5 +1,5 @@
-# The installed CMake package `lanescape` with its target `lanescape::lanescape`, and a pkg-config file. Both find their prefix
-# from where they lie, so that an installation can be moved.
+# The installed CMake package `lanescape` with its target `lanescape::lanescape`, and a pkg-config file. Both compute their prefix
+# from their own location, so an installation can be moved.
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/lanescape)
@@ -13,8 +13,8 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/lanescape-config.cmake
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/lanescape-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/lanescape-config.cmake ${PROJECT_BINARY_DIR}/lanescape-config-version.cmake DESTINATION ${package_dir})
 
-# Users of a static library link what it was built from. One prefix holds one form of the library, so that pkg-config says so
-# without being asked for --static.
+# Users of a static library must link its dependencies. A prefix holds only one form of the library, so the pkg-config file lists
+# these without --static.
 if(NOT BUILD_SHARED_LIBS)
   set(LANESCAPE_PC_REQUIRES "fmt, hdf5")
   set(LANESCAPE_PC_LIBS "${OpenMP_CXX_FLAGS} -lpthread")

@@ -1,5 +1,5 @@
-# Instruction sets: reads cmake/instruction_sets.txt, writes the header dispatch/instruction_sets.hpp that C++ reads, and compiles
-# sources once per instruction set. LANESCAPE_ISAS lists those to compile; off x86 there is only the portable one.
+# Instruction sets: reads cmake/instruction_sets.txt, writes the header dispatch/instruction_sets.hpp for C++, and compiles sources
+# once per instruction set. LANESCAPE_ISAS lists those to compile; processors other than x86 have only the portable one.
 set(LANESCAPE_INSTRUCTION_SETS_FILE ${PROJECT_SOURCE_DIR}/cmake/instruction_sets.txt)
 set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${LANESCAPE_INSTRUCTION_SETS_FILE})
 file(STRINGS ${LANESCAPE_INSTRUCTION_SETS_FILE} lines REGEX "^[a-z]")
@@ -19,14 +19,14 @@ if(NOT LANESCAPE_ISAS)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
     set(LANESCAPE_ISAS ${LANESCAPE_ALL_ISAS})
     if(NOT LANESCAPE_BUILD_TESTS)
-      list(REMOVE_ITEM LANESCAPE_ISAS generic)  # on x86-64 the portable one is there to be tested
+      list(REMOVE_ITEM LANESCAPE_ISAS generic)  # on x86-64 the portable one is only for tests
     endif()
   else()
     set(LANESCAPE_ISAS generic)
   endif()
 endif()
 if(LANESCAPE_ISAS STREQUAL "native")
-  # The last one whose features /proc/cpuinfo lists.
+  # Selects the last one whose features /proc/cpuinfo lists.
   file(STRINGS /proc/cpuinfo cpu_flags REGEX "^flags" LIMIT_COUNT 1)
   string(REGEX REPLACE "[^a-z0-9_]+" ";" cpu_flags "${cpu_flags}")
   foreach(isa IN LISTS LANESCAPE_ALL_ISAS)
@@ -67,24 +67,24 @@ function(lanescape_add_isa_objects name)
     add_library(${target} OBJECT ${ARGN})
     target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/kernels)
     target_compile_definitions(${target} PRIVATE LANESCAPE_ISA=${isa})
-    target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/kernels/simd/simd.hpp)  # all that xsimd and intrinsics declare
-    # No contraction: a product and a sum are fused where the source says so and nowhere else, so that the energies of two
-    # kernels agree to the bit. Hidden symbols: code compiled for one processor must not leak into the rest of the program.
+    target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/kernels/simd/simd.hpp)  # xsimd and intrinsics
+    # No contraction: a product and a sum are fused only where the source says so, so the energies of two kernels agree to the bit.
+    # Hidden symbols: code compiled for one processor must not leak into the rest of the program.
     target_compile_options(
       ${target} PRIVATE ${LANESCAPE_ISA_FLAGS_${isa}} -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-exceptions -fno-rtti
                         -fvisibility=hidden -fvisibility-inlines-hidden)
     if(isa STREQUAL "generic" AND NOT LANESCAPE_ISAS STREQUAL "generic")
-      # Beside vector legs the portable one is there to be tested: at -O3 its forms take minutes to compile.
+      # If other instruction sets are built, the portable one is only for tests: at -O3 its forms take minutes to compile.
       target_compile_options(${target} PRIVATE -O1)
     endif()
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-      # GCC 12's own AVX-512 headers set a vector from itself (GCC bug 105593).
-      # The notes on passing wide vectors concern calls between objects, of which these have none.
+      # GCC 12's own AVX-512 headers initialise a vector with itself (GCC bug 105593). The notes on passing wide vectors are about
+      # calls between objects; these objects have no such calls.
       target_compile_options(${target} PRIVATE -Wno-uninitialized -Wno-maybe-uninitialized -Wno-psabi -Wno-ignored-attributes)
     endif()
     if(LANESCAPE_SANITIZE)
-      # Instrumented, the forcibly inlined row loops take the compiler a quarter of an hour. The parity tests check the kernels;
-      # the sanitizers check what calls them.
+      # With instrumentation the compiler needs a quarter of an hour for the force-inlined row loops. The parity tests check the
+      # kernels; the sanitizers check the callers.
       target_compile_options(${target} PRIVATE -fno-sanitize=all)
     endif()
     if(NOT isa STREQUAL "generic")

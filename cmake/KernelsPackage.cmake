@@ -1,5 +1,5 @@
-# The kernels by themselves: target lanescape_kernels holds the kernels of all instruction sets and the dispatch between them, and
-# needs nothing but the standard library. Install component `kernels`, package `lanescape-kernels`, target lanescape::kernels.
+# The kernels alone: target lanescape_kernels holds the kernels of all instruction sets and the dispatch between them, and needs
+# only the standard library. Install component `kernels`, package `lanescape-kernels`, target lanescape::kernels.
 add_library(lanescape_kernels STATIC ${PROJECT_SOURCE_DIR}/src/dispatch/isa.cpp)
 add_library(lanescape::kernels ALIAS lanescape_kernels)
 lanescape_link_isa_objects(lanescape_kernels lanescape_kernels)

@@ -1,3 +1,3 @@
-# Warnings of every target of this project; not passed on to those who link the library.
+# Compiler warnings of every target of this project; users of the library do not inherit them.
 add_library(lanescape_warnings INTERFACE)
 target_compile_options(lanescape_warnings INTERFACE -Wall -Wextra $<$<BOOL:${LANESCAPE_WERROR}>:-Werror>)
