@@ -1,4 +1,4 @@
-// Two particles 1.5 sigma apart, by the installed library and by hand.
+// Two particles 1.5 sigma apart, evaluated with the installed library and by hand.
 
 #include <array>
 #include <cmath>
@@ -31,7 +31,7 @@ bool gives_the_pair_potential(const std::string& isa) {
          close(forces[0], -attraction) && close(forces[3], attraction) && forces[1] == 0.0 && forces[5] == 0.0;
 }
 
-// The two particles above see each other across the face, from either end.
+// The two particles above are neighbours across the face: each is in the other's list.
 bool finds_the_pair() {
   const lanescape::NeighbourPairs pairs =
       lanescape::neighbour_pairs(std::vector<double>{9.5, 1.0, 2.0, 1.0, 1.0, 2.0}, {10.0, 10.0, 10.0}, 2.5);

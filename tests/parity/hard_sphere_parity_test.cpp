@@ -32,7 +32,7 @@ const std::vector<HardSphereCase>& every_case() {
   return cases;
 }
 
-// Enough for every check to see a kernel that is wrong.
+// Enough cases for every check to detect a wrong kernel.
 std::vector<HardSphereCase> small_cases() {
   std::vector<HardSphereCase> cases;
   std::copy_if(every_case().begin(), every_case().end(), std::back_inserter(cases),
@@ -103,8 +103,8 @@ TEST(HardSphereCases, OverlapAsTheirNamesSay) {
   EXPECT_EQ(touching, 159U);
 }
 
-// The checks must be able to fail: kernels that are wrong in one place, and by little.
-const KernelTable* right = nullptr;  // what the wrong kernels start from; a kernel is a plain function
+// The checks must be able to fail: each of these kernels is slightly wrong in one place.
+const KernelTable* right = nullptr;  // source of the correct kernels; global, because a kernel is a plain function
 
 bool overlap_that_touching_is(const SphereInput& in) noexcept { return right->sphere_smallest_gap(in) <= 0.0; }
 bool overlap_without_the_last_row(const SphereInput& in) noexcept {

@@ -90,7 +90,7 @@ TEST_P(LennardJonesParity, AForcedInstructionSetIsTheOneThatRuns) {
   const std::size_t lanes = GetParam() == Isa::avx512 ? 8 : GetParam() == Isa::sse2 ? 2 : 4;
   EXPECT_EQ(forced.lanes, lanes);
   for (const Deviation& deviation : verify_all_pairs(forced, {every_case().front()})) EXPECT_EQ(deviation.isa, name);
-  // Code of its own, not that of another instruction set under its name.
+  // Its own code, not that of another instruction set under its name.
   for (const Isa isa : available_isas())
     if (isa != GetParam()) {
       const KernelTable& other = kernel_table(isa);
@@ -159,10 +159,10 @@ TEST(LennardJonesCases, CutoffEdgesAreDecidedAsTheirNamesSay) {
   EXPECT_EQ(found, 10U);
 }
 
-// The checks must be able to fail: kernels that are wrong in one place by a little.
-const KernelTable* right = nullptr;  // what the wrong kernels start from; a kernel is a plain function
+// The checks must be able to fail: each of these kernels is slightly wrong in one place.
+const KernelTable* right = nullptr;  // source of the correct kernels; global, because a kernel is a plain function
 
-// The right kernels, but for those of Lennard-Jones.
+// The correct table with other Lennard-Jones kernels.
 KernelTable with(const PairKernels& lennard_jones) {
   KernelTable table = *right;
   table.pair[static_cast<std::size_t>(PairForm::lennard_jones)] = &lennard_jones;
@@ -242,7 +242,7 @@ TEST(LennardJonesChecks, SeeASingleBitBetweenTheKernels) {
   right = &kernel_table(available_isas().back());
   PairKernels wrong = of(*right);
   wrong.energy = energy_off_by_one_bit;
-  // Where no pair is in range the energy is exactly zero, and one bit of it is no rounding error.
+  // If no pair is in range the energy is exactly zero, and a change of one bit is not a rounding error.
   std::vector<PairCase> dense = small_cases();
   std::erase_if(dense, [](const PairCase& c) { return c.configuration.size() < 8; });
   std::vector<std::string> failed;

@@ -25,7 +25,7 @@ TEST_P(PairFormsParity, EveryLoopOverEveryFormAgreesWithTheReference) {
       EXPECT_TRUE(deviation.passed()) << describe(deviation);
 }
 
-// Mie's potential with the exponents 12 and 6 is Lennard-Jones, by another kernel.
+// Mie's potential with the exponents 12 and 6 is Lennard-Jones, computed by another kernel.
 TEST_P(PairFormsParity, MieWithExponentsTwelveAndSixIsLennardJones) {
   for (const PairCase& one : form_cases(lennard_jones_form())) {
     PairModel mie = one.model;
@@ -41,7 +41,7 @@ TEST_P(PairFormsParity, MieWithExponentsTwelveAndSixIsLennardJones) {
   }
 }
 
-// The cases see what a form is made of: a number changed by a millionth fails.
+// The cases are sensitive to the parameters of a form: a relative change of 1e-6 fails.
 TEST(PairFormCases, FailForAWrongNumber) {
   const kernels::KernelTable& table = kernel_table(available_isas().back());
   for (const PairForm& form : pair_forms()) {

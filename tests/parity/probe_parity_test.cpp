@@ -30,7 +30,7 @@ TEST_P(ProbeParity, KernelsAgreeWithTheReferenceOnEveryCase) {
   }
 }
 
-// Two species in a box of several columns of cells.
+// Two species in a box with several columns of cells.
 Configuration large_fluid() {
   for (const auto& one : every_case())
     if (one.name == "kob-andersen N=257 all tail") return one.configuration;
@@ -56,7 +56,7 @@ TEST_P(ProbeParity, AFluidThatParticlesWerePutIntoAndTakenOutOfIsFeltAsItIs) {
   EXPECT_NEAR(sample.energy, expected.energy, 2e-14 * expected.magnitude);
   for (std::size_t axis = 0; axis < 3; ++axis)
     EXPECT_NEAR(sample.gradient[axis], expected.gradient[axis], 3e-13 * expected.gradient_magnitude[axis]);
-  // Wherever its image is asked.
+  // The energy is the same at every periodic image.
   const std::array<double, 3> image = {place[0] + fluid.box.length[0], place[1] - 2.0 * fluid.box.length[1], place[2]};
   EXPECT_NEAR(field.energy(image), expected.energy, 2e-13 * expected.magnitude);
 }

@@ -30,13 +30,13 @@ TEST_P(VectorAlgebraParity, PeakMeasurementDoesTheArithmeticItCounts) {
   double sink = 0.0;
   const double operations = table.peak_rounds(1000, &sink);
   EXPECT_EQ(operations, 1000.0 * 12.0 * 2.0 * static_cast<double>(table.lanes));
-  // Chain k starts at 1 + k and moves towards 1 by a factor 0.999999 a round.
+  // Chain k starts at 1 + k and approaches 1 by a factor 0.999999 per round.
   const double expected = (12.0 + 66.0 * std::pow(0.999999, 1000)) * static_cast<double>(table.lanes);
   EXPECT_NEAR(sink, expected, 1e-9 * expected);
 }
 
-// The checks must be able to fail: each kernel is replaced by one that is wrong in one place by a little.
-const KernelTable* right = nullptr;  // what the wrong kernels start from; a kernel is a plain function
+// The checks must be able to fail: each kernel is replaced by one that is slightly wrong in one place.
+const KernelTable* right = nullptr;  // source of the correct kernels; global, because a kernel is a plain function
 
 double wrong_dot(const double* a, const double* b, std::size_t n) noexcept { return right->dot(a, b, n) * (1.0 + 1e-12); }
 double dot_without_last(const double* a, const double* b, std::size_t n) noexcept {

@@ -24,7 +24,7 @@ struct Ends {
   std::vector<double> radii, start, finish;
 };
 
-// Two ends of one trajectory, so many collisions apart.
+// Two ends of one trajectory, `collisions` apart.
 Ends liquid_ends(std::size_t particles, double packing_fraction, int collisions) {
   SilentMonitor monitor;
   const Isa isa = available_isas().front();
@@ -43,7 +43,7 @@ Ends liquid_ends(std::size_t particles, double packing_fraction, int collisions)
 
 Ends two_spheres(double degrees) {
   const double angle = degrees * std::numbers::pi / 180.0;
-  // In the frame of the centre of mass: relative coordinates of length 3 on either side.
+  // In the centre-of-mass frame: relative coordinates of length 3 at both ends.
   const auto half = [](double x, double y) {
     return std::vector<double>{-0.5 * x + 10, -0.5 * y + 10, 10, 0.5 * x + 10, 0.5 * y + 10, 10};
   };
@@ -77,7 +77,7 @@ TEST(Avoidance, StepsAreThoseOfTheReferenceOnEveryInstructionSet) {
   ASSERT_GE(expected.accepted.size(), 500U);
   for (const Isa isa : available_isas()) {
     Search search(ends, isa);
-    // Steps amplify rounding: the further, the less digits agree.
+    // Steps amplify rounding: fewer digits agree in later steps.
     for (std::size_t k = 0; k < 500; ++k) {
       search.finder.advance(1);
       ASSERT_LT(largest_difference(search.layout.to_user(search.finder.position()), expected.accepted[k].positions), 1e-9)
@@ -92,7 +92,7 @@ TEST(Avoidance, CountsOfAWholePathAreThoseOfTheReference) {
   Search search(ends, available_isas().back());
   search.finder.advance(10'000'000);
   ASSERT_EQ(search.finder.outcome(), Outcome::reached) << search.finder.reason();
-  // Rounding decides some trial sooner or later; lengths hardly notice.
+  // Sooner or later rounding decides a trial; this hardly changes lengths.
   EXPECT_NEAR(search.finder.statistics().length(), expected.length, 0.02 * expected.length);
   EXPECT_NEAR(static_cast<double>(search.finder.direct_steps()), static_cast<double>(expected.direct_steps),
               0.03 * static_cast<double>(expected.direct_steps));
@@ -111,7 +111,7 @@ TEST(Avoidance, NoConfigurationOfAPathOverlaps) {
   EXPECT_EQ(search.finder.outcome(), Outcome::reached);
 }
 
-// Every moved particle moves exactly delta_ca: n is the number of them.
+// Every moved particle moves by exactly delta_ca, so n is the number of moved particles.
 TEST(Avoidance, ParticipationOfAnAvoidanceStepIsTheNumberOfParticlesMoved) {
   const Ends ends = liquid_ends(32, 0.45, 200);
   Search search(ends, available_isas().back());
@@ -125,8 +125,8 @@ TEST(Avoidance, ParticipationOfAnAvoidanceStepIsTheNumberOfParticlesMoved) {
   }
 }
 
-// Two spheres, a = b = 3, s = 1, 170 degrees: no path is shorter than 6.1620 / sqrt 2, and direct steps that avoidance takes
-// back make this one cost (1 + cos a) / sin a per arc, 9.0229 / sqrt 2 for small steps (the integral along the contact sphere).
+// Two spheres, a = b = 3, s = 1, 170 degrees: no path is shorter than 6.1620 / sqrt 2. Avoidance takes back direct steps, so this
+// path costs (1 + cos a) / sin a per arc, 9.0229 / sqrt 2 for small steps (the integral along the contact sphere).
 TEST(Avoidance, TwoSpheresTakeTheZigzagRoundEachOtherAndNoShorterWayThanTheGeodesic) {
   for (const double step : {1e-1, 1e-2}) {
     AvoidanceStepper::Options options;

@@ -40,7 +40,7 @@ TEST(ContourAndEscape, AgreeOnKobAndersenPairs) {
     SCOPED_TRACE(k);
     ASSERT_EQ(contour[k].outcome, Outcome::reached) << contour[k].reason;
     ASSERT_EQ(escape[k].outcome, Outcome::reached) << escape[k].reason;
-    // Not a trivial agreement of two straight lines.
+    // The paths are not two straight lines, which would agree trivially.
     EXPECT_GT(contour[k].detour_steps, 3000u);
     EXPECT_GT(escape[k].detour_steps, 1000u);
     EXPECT_LT(contour[k].ratio_squared(), 0.9);

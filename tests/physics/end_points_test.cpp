@@ -58,7 +58,7 @@ TEST(EndPointDistance, LeavesOutTheMotionOfTheCentreOfMass) {
     auto shifted = system.configuration.positions;
     for (std::size_t k = 0; k < shifted.size(); ++k) shifted[k] += k % 3 == 0 ? 5.0 : -2.0;
     EXPECT_NEAR(end_point_distance(from, system.layout.to_slots(shifted), system.layout, masses, {}), 0.0, 1e-12);
-    // One particle moves by d on top: it does so by d (1 - m/M) relative to the centre, the others by -d m/M.
+    // One particle moves by an additional d. Relative to the centre it moves by d (1 - m/M), the others by -d m/M.
     const std::size_t moved = 17;
     const double d = 0.7, share = masses[static_cast<std::size_t>(system.configuration.species[moved])] / (87.0 + 21.0 * second);
     shifted[3 * moved + 1] += d;
@@ -74,7 +74,7 @@ TEST(EndPointDistance, OfOneSpeciesCountsThatSpeciesOnly) {
   std::size_t a = 0, b = 0;
   while (system.configuration.species[a] != 0) ++a;
   while (system.configuration.species[b] != 1) ++b;
-  // Opposite motion of two equal masses leaves the centre at rest.
+  // Opposite motion of two equal masses keeps the centre at rest.
   moved[3 * a] += 0.5;
   moved[3 * b] -= 0.5;
   const AlignedArray to = system.layout.to_slots(moved);
@@ -113,7 +113,7 @@ TEST(EndPointGenerator, CountsOfZeroSkipSettlingAndTheStepsBetweenPairs) {
   std::map<Phase, int> steps;
   while (!generator.ended()) ++steps[generator.phase()], generator.step();
   EXPECT_EQ(steps.count(Phase::settle) + steps.count(Phase::between), 0u);
-  // The far end of a pair is then the near end of the next.
+  // The end of a pair is then the start of the next.
   EXPECT_EQ(generator.pairs()[0].finish, generator.pairs()[1].start);
 }
 
@@ -200,7 +200,7 @@ TEST(EndPointGenerator, HoldsTheTemperatureWithinTheTolerance) {
   run_to_the_end(generator);
   ASSERT_EQ(generator.phase(), Phase::done);
   EXPECT_LT(std::fabs(generator.checked_temperature() - 1.5), 0.03);
-  // What was not looked at when the check was passed.
+  // The temperature after the check has passed, which the check did not use.
   EXPECT_LT(std::fabs(generator.mean_temperature() - 1.5), 0.1);
   EXPECT_NE(generator.mean_temperature(), generator.checked_temperature());
 }
@@ -235,7 +235,7 @@ TEST(EndPointGenerator, ResumedFromAnArchiveInAnyPhaseItEndsWithTheSameBits) {
   run_to_the_end(whole);
   const std::uint64_t first_pair = 370 + whole.pairs()[0].steps;
   const auto file = std::filesystem::temp_directory_path() / ("lanescape-end-points-" + std::to_string(::getpid()) + ".h5");
-  // Within melting, cooling, check, settling, the first pair, between, the second pair.
+  // During melting, cooling, check, settling, the first pair, the steps between pairs, the second pair.
   for (const std::uint64_t stop : {std::uint64_t{33}, std::uint64_t{101}, std::uint64_t{207}, std::uint64_t{333}, first_pair - 5,
                                    first_pair + 45, first_pair + 95}) {
     SCOPED_TRACE(stop);
@@ -247,7 +247,7 @@ TEST(EndPointGenerator, ResumedFromAnArchiveInAnyPhaseItEndsWithTheSameBits) {
       archive.commit();
     }
     auto other_seed = options;
-    other_seed.seed = 99;  // all that matters is in the archive
+    other_seed.seed = 99;  // the archive contains everything that matters
     auto resumed = generator_of(system, other_seed);
     Hdf5Reader archive(file);
     resumed.exchange(archive);

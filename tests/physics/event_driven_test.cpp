@@ -46,7 +46,7 @@ std::vector<double> unequal_masses(std::size_t particles) {
   return masses;
 }
 
-// Carnahan and Starling's value at contact.
+// The contact value by Carnahan and Starling.
 double contact_value(double phi) { return (1.0 - 0.5 * phi) / std::pow(1.0 - phi, 3); }
 
 TEST(EventDriven, CollidesAsTheReferenceDoesWithUnequalMassesAndDiameters) {
@@ -92,12 +92,12 @@ void expect_conserved(const Configuration& start, std::uint64_t collisions, std:
     deepest = std::min(deepest, smallest_gap(dynamics));
   }
   EXPECT_GT(deepest, -1e-12);
-  // Rounding adds up like a random walk.
+  // Rounding errors accumulate like a random walk.
   EXPECT_NEAR(dynamics.kinetic_energy() / energy, 1.0, 1e-12 * std::max(1.0, std::sqrt(static_cast<double>(collisions) / 1e7)));
   for (const double p : dynamics.momentum()) EXPECT_NEAR(p, 0.0, 1e-10);
 }
 
-// 10^7 collisions in all: no overlap beyond rounding, energy and momentum kept.
+// 10^7 collisions in total: no overlap beyond rounding; energy and momentum are conserved.
 TEST(EventDriven, TenMillionCollisionsLeaveNoOverlapAndConserveEnergyAndMomentum) {
   expect_conserved(fluid(hard_sphere(), 108, 0.49), 4'000'000);
   expect_conserved(fluid(hard_sphere_binary(), 108, 0.55), 4'000'000);
@@ -106,7 +106,7 @@ TEST(EventDriven, TenMillionCollisionsLeaveNoOverlapAndConserveEnergyAndMomentum
   expect_conserved(fluid(hard_sphere_binary(), 500, 0.58), 1'000'000);
 }
 
-// Under ctest's label long.
+// Runs under ctest's label long.
 TEST(EventDriven, DISABLED_HundredMillionCollisionsLeaveNoOverlap) {
   expect_conserved(fluid(hard_sphere_binary(), 108, 0.55), 100'000'000);
 }
@@ -124,7 +124,7 @@ TEST(EventDriven, TimeRunsBackwards) {
   dynamics.advance_to(2.0);
   EXPECT_EQ(dynamics.collisions(), 2 * collisions);
   const auto back = dynamics.positions();
-  // Ten collisions of each particle amplify rounding by some powers of ten.
+  // Ten collisions per particle amplify rounding by some powers of ten.
   for (std::size_t c = 0; c < back.size(); ++c) EXPECT_NEAR(back[c], from[c], 1e-6);
 }
 
@@ -151,7 +151,7 @@ TEST(EventDriven, IsResynchronisedAtCountsThatSuitTheNumberOfParticles) {
               collisions);
 }
 
-// A sphere a rounding error outside the box belongs at the face, on whichever side it is put; bringing it in twice is once.
+// A sphere that is outside the box by a rounding error belongs at the face. Wrapping twice gives the same result as wrapping once.
 TEST(EventDriven, ResynchronisingTwiceIsOnce) {
   const Configuration start{Box{{4.0, 4.0, 4.0}}, {0, 0}, {-1e-17, 1.0, 4.0, 2.0, 2.0, 2.0}, {0.5, 0.5}};
   EventDriven once = moving(start);
@@ -168,7 +168,7 @@ struct Measured {
   double compressibility, error, rate;
 };
 
-// In blocks; the first two are left out.
+// Measures in blocks; skips the first two.
 Measured measure(const Configuration& start, std::uint64_t collisions_per_block, int blocks) {
   EventDriven dynamics = moving(start);
   collide(dynamics, 2 * collisions_per_block);
@@ -182,13 +182,13 @@ Measured measure(const Configuration& start, std::uint64_t collisions_per_block,
     squares += z * z;
   }
   const double n = static_cast<double>(dynamics.size()), mean = sum / blocks;
-  const double temperature = n / (n - 1.0);  // of 3N - 3 degrees of freedom
+  const double temperature = n / (n - 1.0);  // for 3N - 3 degrees of freedom
   return {mean, std::sqrt((squares / blocks - mean * mean) / (blocks - 1)),
           2.0 * static_cast<double>(collisions_per_block) * blocks / n / (dynamics.time() - from) / std::sqrt(temperature)};
 }
 
-// Event-driven molecular dynamics of many more particles, github.com/macioosch/dynamo-hard-spheres-sim; collision rates by 4
-// sqrt(pi) rho chi with Carnahan and Starling's value at contact, which is a few tenths of a per cent off.
+// Event-driven molecular dynamics of many more particles: github.com/macioosch/dynamo-hard-spheres-sim. Collision rates: 4 sqrt(pi)
+// rho chi with Carnahan and Starling's contact value, which has an error of a few tenths of a per cent.
 TEST(EventDriven, OneComponentHasThePublishedCompressibilityAndCollisionRate) {
   for (const auto& [phi, z] : {std::pair{0.30, 3.983994}, std::pair{0.45, 9.404065}, std::pair{0.47124, 10.76249}}) {
     const Measured m = measure(fluid(hard_sphere(), 2048, phi), 200'000, 12);

@@ -33,7 +33,7 @@ Configuration made(const HardSphereModel& model, std::size_t particles, double p
   return *start;
 }
 
-// Calls visit(i, j, r_ij / s_ij) for every pair, nearest images.
+// Calls visit(i, j, r_ij / s_ij) for every pair, with nearest images.
 template <class Visit>
 void for_each_pair(const Configuration& c, Visit visit) {
   for (std::size_t i = 0; i < c.size(); ++i)
@@ -61,7 +61,7 @@ double unlike_fraction(const Configuration& c) {
   return unlike / all;
 }
 
-// What every start must be.
+// Checks the properties that every start must have.
 void expect_sound(const Configuration& c, const HardSphereModel& model, std::size_t particles, double wanted) {
   ASSERT_EQ(c.size(), particles);
   EXPECT_NEAR(packing_fraction(c) / wanted, 1.0, 1e-12);
@@ -85,7 +85,7 @@ double compressibility(const Configuration& start) {
   return spheres.compressibility(virial, time);
 }
 
-// Asks to stop from the given question on.
+// Requests a stop after the given number of questions.
 class StoppingMonitor final : public RunMonitor {
  public:
   explicit StoppingMonitor(int questions) : questions_(questions) {}
@@ -127,7 +127,7 @@ TEST(HardSphereStart, GrowthGoesFastEnoughThatOneComponentStaysAFluid) {
 
 TEST(HardSphereStart, GrowthMixesTheSpecies) {
   EXPECT_NEAR(unlike_fraction(made(hard_sphere_binary(), 500, 0.58, StartMethod::growth)), 0.5, 0.05);
-  EXPECT_LT(unlike_fraction(made(hard_sphere_binary(), 500, 0.49, StartMethod::lattice)), 0.3);  // the measure tells them apart
+  EXPECT_LT(unlike_fraction(made(hard_sphere_binary(), 500, 0.49, StartMethod::lattice)), 0.3);  // the measure distinguishes them
 }
 
 TEST(HardSphereStart, GrowthKeepsUnevenCompositions) {
@@ -158,7 +158,7 @@ TEST(HardSphereStart, AutomaticIsTheLatticeWhereItHasRoomAndGrowthElsewhere) {
   };
   EXPECT_EQ(positions(0.40, StartMethod::automatic), positions(0.40, StartMethod::lattice));
   EXPECT_EQ(positions(0.52, StartMethod::automatic), positions(0.52, StartMethod::growth));
-  // With vacancies one component's lattice ends at 0.7405 * 62/108 = 0.425.
+  // With vacancies the one-component lattice is limited to 0.7405 * 62/108 = 0.425.
   expect_sound(made(hard_sphere(), 62, 0.46, StartMethod::automatic), hard_sphere(), 62, 0.46);
 }
 
@@ -192,7 +192,7 @@ TEST(Contraction, ReachesBeyondTheLatticeWithFewSweeps) {
   SilentMonitor monitor;
   const Configuration lattice = hard_sphere_start(hard_sphere_binary(), 108, 0.50, Arrangement::halves, 1);
   ContractionOptions options;
-  options.sweeps = 500;  // the lattice ends at 0.5052, large spheres in contact: with a tenth of these it may not melt
+  options.sweeps = 500;  // the lattice is limited to 0.5052, where large spheres touch; 50 sweeps may not melt it
   const auto dense = contract(lattice, 0.52, options, 1, monitor);
   ASSERT_TRUE(dense);
   expect_sound(*dense, hard_sphere_binary(), 108, 0.52);
@@ -232,7 +232,7 @@ TEST(Contraction, RefusesOptionsOutOfRange) {
 }
 
 TEST(Contraction, PushesOverlappingSpheresToContactAlongTheirLine) {
-  // Two spheres of diameter 1 across the face of the box, another out of the way.
+  // Two spheres of diameter 1 across the face of the box, and a third far from them.
   const Configuration start{Box{{5.0, 5.0, 5.0}}, {0, 0, 0}, {0.2, 1.0, 1.0, 4.8, 1.0, 1.0, 2.5, 3.0, 3.0}, {0.5, 0.5, 0.5}};
   SqueezedSpheres spheres(start);
   EXPECT_FALSE(spheres.push_apart(1));
@@ -246,7 +246,7 @@ TEST(Contraction, PushesOverlappingSpheresToContactAlongTheirLine) {
 }
 
 TEST(Contraction, MonteCarloAcceptsMovesWithoutOverlapsOnly) {
-  // 108 particles: lists over the whole box; 2000: by cells. Large moves leave the skin of a list at once.
+  // 108 particles: lists over the whole box; 2000: cells. Large moves leave the skin of a list immediately.
   for (const auto& [particles, max_move] : {std::pair<std::size_t, double>{108, 0.1}, {108, 0.9}, {2000, 0.1}}) {
     const Configuration start = made(hard_sphere_binary(), particles, 0.48, StartMethod::lattice);
     SqueezedSpheres spheres(start);

@@ -1,5 +1,5 @@
-// Dynamics and paths over neighbour lists: what depends on where a list was made must survive an archive, and nothing may depend on
-// the number of threads.
+// Dynamics and paths over neighbour lists. An archive must keep everything that depends on where a list was built, and no result
+// may depend on the number of threads.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -69,7 +69,7 @@ TEST(LargeSystems, DynamicsOverAListFollowsThatOverAllPairs) {
   VelocityVerlet a = liquid.moving(by_list), b = liquid.moving(by_pairs);
   run(a, 200);
   run(b, 200);
-  // Rounding grows by a factor of about e in each tenth of a time unit.
+  // Rounding errors grow by a factor of about e per tenth of a time unit.
   for (std::size_t k = 0; k < a.position().size(); ++k) ASSERT_NEAR(a.position()[k], b.position()[k], 1e-9) << k;
 }
 
@@ -96,7 +96,7 @@ TEST(LargeSystems, DynamicsDoesNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(a.potential_energy(), b.potential_energy());
 }
 
-// Stopped where the list is fresh, half used and about to be renewed.
+// Stops where the list is fresh, half used and about to be rebuilt.
 TEST(LargeSystems, DynamicsResumedFromAnArchiveGoesOnWithTheSameBits) {
   const Liquid liquid;
   auto landscape = liquid.landscape();
@@ -115,7 +115,7 @@ TEST(LargeSystems, DynamicsResumedFromAnArchiveGoesOnWithTheSameBits) {
   }
 }
 
-// The errors that src/interaction/README.md states.
+// The errors stated in src/interaction/README.md.
 TEST(LargeSystems, InMixedPrecisionALiquidHasNearlyItsEnergyAndForces) {
   const PairModel model = kob_andersen();
   const Configuration start = fcc_start(model, 4000, 1.2, 1);
@@ -161,7 +161,7 @@ TEST(LargeSystems, DynamicsInMixedPrecisionConservesEnergyAsInDouble) {
     RecordProperty(to_string(precision), std::to_string(1e6 * worst) + "e-6");
     return worst;
   };
-  // The jump of forces at the cutoff, of either precision, is most of it.
+  // Most of it comes from the jump of forces at the cutoff, in either precision.
   EXPECT_LT(drift_in(Precision::double_precision), 5e-4);
   EXPECT_LT(drift_in(Precision::mixed), 5e-4);
 }
@@ -183,7 +183,7 @@ TEST(LargeSystems, DynamicsInMixedPrecisionResumesWithTheSameBitsOnAnyNumberOfTh
   EXPECT_EQ(resumed.potential_energy(), whole.potential_energy());
 }
 
-// Two configurations of one trajectory and the energy between them.
+// Two configurations of one trajectory and the landscape energy for a path between them.
 struct Ends {
   AlignedArray start, goal;
   double energy;
@@ -202,7 +202,7 @@ Ends ends(const Liquid& liquid) {
 
 template <class Stepper>
 PathFinder<Stepper> finder_on(PairLandscape& landscape, const Ends& ends) {
-  // Steps long enough for the list to be renewed many times.
+  // Steps are long enough for many rebuilds of the list.
   return {landscape.algebra(), Stepper(landscape, ends.energy, {.direct_step = 0.03}), ends.start, ends.goal, particles,
           FinderOptions{}};
 }

@@ -24,9 +24,9 @@ namespace lanescape {
 namespace {
 
 using testing::System;
-using Point = std::vector<double>;  // interleaved, as the reference has it
+using Point = std::vector<double>;  // interleaved, as in the reference
 
-// V = -|r_1 - r_2| of two particles: V <= -s is the outside of a hard sphere of diameter s.
+// V = -|r_1 - r_2| of two particles: V <= -s is the region outside a hard sphere of diameter s.
 class TwoSpheres final : public SoftLandscape {
  public:
   TwoSpheres() : layout_({0, 0}, 1), algebra_(kernel_table(testing::active_isa())) {}
@@ -58,7 +58,7 @@ class TwoSpheres final : public SoftLandscape {
   VectorAlgebra algebra_;
 };
 
-// Two spheres about a resting centre of mass, `r` apart, at an angle in a tilted plane.
+// Two spheres with a resting centre of mass, `r` apart, at an angle in a tilted plane.
 Point two_spheres(double r, double degrees) {
   const double angle = degrees * std::numbers::pi / 180.0;
   const double x = 0.5 * r * std::cos(angle), y = 0.3 * r * std::sin(angle), z = 0.4 * r * std::sin(angle);
@@ -112,7 +112,7 @@ TYPED_TEST(PathFinderWith, SlidesAroundASphereByTheGreedyLength) {
   finder.advance(100'000);
   ASSERT_EQ(finder.outcome(), Outcome::reached) << finder.reason();
   EXPECT_NEAR(finder.statistics().length(), 6.4106 / std::numbers::sqrt2, 2e-3);
-  EXPECT_NEAR(finder.statistics().participation_number(), 2.0, 1e-9);  // the two move by opposite amounts
+  EXPECT_NEAR(finder.statistics().participation_number(), 2.0, 1e-9);  // both move by opposite vectors
   EXPECT_GT(finder.detour_steps(), 1000u);
   EXPECT_EQ(finder.distance_left(), 0.0);
   EXPECT_LE(finder.largest_violation(), is_contour<TypeParam> ? 0.0 : 1e-4 * (1.0 + 1e-9));
@@ -133,7 +133,7 @@ TYPED_TEST(PathFinderWith, TakesTheStepsOfTheReferenceAroundASphere) {
   }
 }
 
-// End points a little apart in a small, dense box, where particles see several images of each other.
+// Two nearby end points in a small, dense box, where particles interact with several images of each other.
 struct Cluster {
   System system;
   AlignedArray start, finish;
@@ -180,7 +180,7 @@ TYPED_TEST(PathFinderWith, TakesTheStepsOfTheReferenceInALennardJonesLiquid) {
   }
 }
 
-// Two configurations of one trajectory under the model's own masses, so that the centre of mass rests.
+// Two configurations of one trajectory with the model's own masses, so that the centre of mass is at rest.
 ConfigurationPair pair_of(const PairModel& model) {
   System system(model, testing::molten_kob_andersen());
   VelocityVerlet verlet = system.moving(2.0);
@@ -213,7 +213,7 @@ double kinematic_distance(const PairModel& model, const Configuration& a, const 
   return std::sqrt(sum * static_cast<double>(a.size()) / mass);
 }
 
-// How far the centre gets from where it starts, particles weighted with the masses of `model`.
+// The largest distance of the centre of mass from its start, with the masses of `model`.
 double drift(const PairModel& model, const std::vector<Configuration>& frames) {
   double farthest = 0.0;
   for (const Configuration& frame : frames) {
@@ -242,7 +242,7 @@ TEST(KinematicMetric, TheCentreOfMassDoesNotDriftAlongAPath) {
   const auto model = testing::with_masses(kob_andersen(), 1.0, 3.0);
   const auto pair = pair_of(model);
   EXPECT_LT(drift(model, contour_path(model, pair).frames), 1e-8);
-  // Without the metric it would: the forces balance, not the displacements they cause.
+  // Without the metric it would drift: the forces balance, but not the displacements that they cause.
   EXPECT_GT(drift(model, contour_path(kob_andersen(), pair).frames), 1e-3);
 }
 

@@ -37,7 +37,7 @@ struct System {
   AlignedArray start() const { return layout.to_slots(configuration.positions); }
 };
 
-// Drift of the total energy per particle over `time`, by a straight line.
+// Drift of the total energy per particle over `time`, from a straight-line fit.
 double drift(System& system, double temperature, double time_step, double time) {
   VelocityVerlet verlet(system.landscape, system.model, system.layout, system.start(), time_step);
   verlet.draw_velocities(temperature, 1);
@@ -142,7 +142,7 @@ TEST(Langevin, SpringsAreExtendedAsTheTemperatureSaysAtAnyTimeStep) {
       squares += springs.algebra().dot(langevin.position(), langevin.position()) / (1200.0 * steps);
       kinetic += langevin.temperature() / steps;
     }
-    // <x^2> = T/k: 1200 springs for some 100 correlation times or more, so that an error is below half a percent.
+    // <x^2> = T/k: 1200 springs over at least about 100 correlation times, so the error is below half a per cent.
     EXPECT_NEAR(squares, temperature / 4.0, 0.01 * temperature / 4.0) << time_step;
     EXPECT_NEAR(kinetic, temperature, 0.015 * temperature) << time_step;
   }

@@ -15,10 +15,10 @@
 
 namespace lanescape::testing {
 
-// The best there is, or what LANESCAPE_ISA says.
+// The best available instruction set, or the one that LANESCAPE_ISA names.
 inline Isa active_isa() { return choose_isa("auto"); }
 
-// A configuration with everything that moves it. Not copied or moved: its parts refer to one another.
+// A configuration with everything needed to move it. It is not copied or moved, because its parts refer to one another.
 struct System {
   PairModel model;
   Configuration configuration;
@@ -46,8 +46,8 @@ inline Configuration molten_kob_andersen() {
   return read_frames(std::string(LANESCAPE_TEST_DATA_DIR) + "/ka_melted_108.extxyz", kob_andersen()).front().configuration;
 }
 
-// The position of lowest energy on the way of the next `steps` steps: between two such the landscape energy is low, and a path
-// meets its boundary.
+// The position of lowest energy during the next `steps` steps. Between two such positions the landscape energy is low, so a path
+// reaches its boundary.
 inline AlignedArray lowest_on_the_way(VelocityVerlet& verlet, int steps) {
   AlignedArray lowest = verlet.position();
   double energy = verlet.potential_energy();

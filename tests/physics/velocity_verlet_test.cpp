@@ -15,11 +15,11 @@ namespace {
 using testing::System;
 
 struct Conservation {
-  double drift = 0.0;        // of the total energy per particle, by a straight line through all of it [epsilon]
+  double drift = 0.0;        // of the total energy per particle, from a straight-line fit [epsilon]
   double fluctuation = 0.0;  // standard deviation about that line, per particle [epsilon]
 };
 
-// Runs at constant energy for `steps` steps and looks at it after each.
+// Runs at constant energy for `steps` steps and records the energy after each.
 Conservation conservation(System& system, VelocityVerlet verlet, int steps) {
   std::vector<double> energy;
   for (int k = 0; k < steps; ++k) {
@@ -47,7 +47,7 @@ std::array<double, 3> momentum(const System& system, const VelocityVerlet& verle
   return sum;
 }
 
-// The kinetic and potential energy of a start have to find their balance first.
+// Kinetic and potential energy must first equilibrate after a start.
 VelocityVerlet settled(System& system, double temperature, double time_step) {
   VelocityVerlet verlet = system.moving(temperature, time_step);
   for (double t = 0.0; t < 2.0; t += time_step) verlet.step();
@@ -64,7 +64,7 @@ TEST(VelocityVerlet, ConservesTheEnergyOfAKobAndersenLiquidOverTwentyThousandSte
 }
 
 TEST(VelocityVerlet, FluctuationsOfTheEnergyFallWithTheSquareOfTheTimeStep) {
-  // From one state, over a stretch too short for the trajectories to part.
+  // Both runs start from one state and are too short for the trajectories to diverge.
   System system(kob_andersen(), testing::molten_kob_andersen());
   const auto fluctuation = [&](double time_step, int steps) {
     return conservation(system, system.moving(1.0, time_step), steps).fluctuation;

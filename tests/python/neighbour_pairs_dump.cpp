@@ -1,5 +1,5 @@
-// Neighbour pairs by the public facade, for neighbour_pairs_test.py: numbers in on stdin (edges of the box, cutoff, coordinates), a
-// row `i j Sx Sy Sz Dx Dy Dz d` out for each pair, with all its digits.
+// Neighbour pairs through the public facade, for neighbour_pairs_test.py. Reads numbers from stdin (edges of the box, cutoff,
+// coordinates) and writes a row `i j Sx Sy Sz Dx Dy Dz d` per pair, with all digits.
 
 #include <array>
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Arithmetic of vectors of doubles and floats, lane by lane, against the scalar language.
+// Arithmetic of vectors of doubles and floats, compared lane by lane with scalar arithmetic.
 
 #include <gtest/gtest.h>
 
@@ -61,7 +61,7 @@ void expect_whole_numbers(const VectorOperations<T>& v) {
   for_each_pair(numbers, v.lanes, [&](const Lanes<T>& a, const Lanes<T>&) {
     Lanes<T> out{};
     v.nearest_whole(a.data(), out.data());
-    // Equal and not of the same bits: where there is no instruction for it, -0 becomes +0.
+    // Equal, but the bits may differ: without a dedicated instruction -0 becomes +0.
     for (std::size_t k = 0; k < v.lanes; ++k) EXPECT_EQ(out[k], std::nearbyint(a[k])) << a[k];
   });
 }
@@ -69,7 +69,7 @@ void expect_whole_numbers(const VectorOperations<T>& v) {
 TEST_P(Arithmetic, RoundsHalvesToEvenInDoublePrecision) { expect_whole_numbers(of(1.0)); }
 TEST_P(Arithmetic, RoundsHalvesToEvenInSinglePrecision) { expect_whole_numbers(of(1.0F)); }
 
-// Products that do not fit: whether they are rounded before the sum.
+// Products that are not exact: they show whether they are rounded before the sum.
 template <class T>
 void expect_fused_or_not(const VectorOperations<T>& v, bool fused) {
   using Limits = std::numeric_limits<T>;

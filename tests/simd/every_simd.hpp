@@ -31,7 +31,7 @@ inline const SimdOperations& simd_operations(Isa isa) {
   throw std::runtime_error("instruction set is not compiled in");
 }
 
-// A test for each instruction set, given its vector operations.
+// A test for each instruction set, with its vector operations.
 class EverySimd : public EveryIsa {
  protected:
   const SimdOperations& simd() const { return simd_operations(GetParam()); }
@@ -39,11 +39,11 @@ class EverySimd : public EveryIsa {
   const VectorOperations<float>& of(float) const { return simd().floats; }
 };
 
-// Room for eight vectors of any instruction set.
+// Space for eight vectors of any instruction set.
 template <class T>
 struct alignas(64) Lanes : std::array<T, 128> {};
 
-// Numbers at which operations go wrong, and ordinary ones: every lane of every vector sees each.
+// Ordinary numbers and numbers at which operations fail; every lane of every vector gets each of them.
 template <class T>
 std::vector<T> awkward_numbers() {
   using Limits = std::numeric_limits<T>;
@@ -57,14 +57,14 @@ std::vector<T> awkward_numbers() {
   return numbers;
 }
 
-// The same bits, or both not a number.
+// The same bits, or both NaN.
 template <class T>
 bool same(T a, T b) {
   using Bits = std::conditional_t<sizeof(T) == 8, std::uint64_t, std::uint32_t>;
   return (std::isnan(a) && std::isnan(b)) || std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
 }
 
-// Calls check(vector of a, vector of b) with every pair of numbers, rotated so that each meets every lane.
+// Calls check(vector of a, vector of b) with every pair of numbers, rotated so that each pair is in each lane.
 template <class T, class Check>
 void for_each_pair(const std::vector<T>& numbers, std::size_t lanes, Check check) {
   const std::size_t n = numbers.size();
@@ -79,7 +79,7 @@ void for_each_pair(const std::vector<T>& numbers, std::size_t lanes, Check check
     }
 }
 
-// The masks of `lanes` lanes (a spread of them where they are many), as bits and as numbers.
+// The masks of `lanes` lanes (a selection if there are many), as bits and as numbers.
 template <class T, class Check>
 void for_each_mask(std::size_t lanes, Check check) {
   const unsigned count = 1U << lanes;

@@ -1,4 +1,4 @@
-// The exponential against that of long double: at most two units in the last place off.
+// The exponential compared with that of long double: error at most two units in the last place.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 using Exponential = EverySimd;
 INSTANTIATE_TEST_SUITE_P(Isa, Exponential, all_isas(), isa_name);
 
-// In units of the last place of the exact result, which below the smallest normal number are all the same.
+// In units of the last place of the exact result. Below the smallest normal number all these units are equal.
 template <class T>
 double error_in_ulp(T found, T v) {
   const long double exact = std::exp(static_cast<long double>(v));
@@ -80,7 +80,7 @@ void expect_ends(const VectorOperations<T>& vector, T largest, T smallest, T bey
 }
 
 TEST_P(Exponential, ReachesZeroAndInfinityWhereTheExactOneDoes) {
-  // ln of the largest number, of half the smallest, and how far beyond there is nothing else.
+  // ln of the largest number, ln of half the smallest, and the distance beyond at which the result is infinity or zero.
   expect_ends(of(1.0), 709.78271, -745.13321, 1e-4);
   expect_ends(of(1.0F), 88.7228F, -103.9720F, 1e-3F);
 }

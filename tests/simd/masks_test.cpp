@@ -1,4 +1,4 @@
-// Comparisons, masks and what they choose, for doubles and floats.
+// Comparisons, masks and select, for doubles and floats.
 
 #include <gtest/gtest.h>
 

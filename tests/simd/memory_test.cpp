@@ -16,7 +16,7 @@ class Memory : public EverySimd {
 };
 INSTANTIATE_TEST_SUITE_P(Isa, Memory, all_isas(), isa_name);
 
-// Indices of records in no order, some twice.
+// Unordered indices of records, some repeated.
 std::int32_t scattered(std::size_t k) { return static_cast<std::int32_t>(5 * k * k + 3 * k + 1) % 16; }
 
 TEST_P(Memory, GathersNumbersByIndex) {
@@ -86,7 +86,7 @@ TEST_P(Memory, GathersDifferencesFromAnOrigin) {
       EXPECT_EQ(out[axis * float_lanes() + k], difference(base[offset[k] + axis], origin[axis]));
 }
 
-// What is set comes first, in order; nothing is written beyond one vector.
+// Selected values come first, in order; nothing is written beyond one vector.
 template <class T, class Value>
 void expect_packed(const Lanes<T>& out, std::size_t count, unsigned bits, std::size_t lanes, Value value) {
   std::size_t wanted = 0;

@@ -3,11 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 
-// The vector operations of kernels/simd of one instruction set as functions of arrays, one vector per call; arrays are aligned to
-// 64 bytes where the operation wants that. A mask comes in as numbers, set where they are 1, and goes out as bits.
+// The vector operations of kernels/simd for one instruction set, as functions of arrays, one vector per call. Arrays are aligned to
+// 64 bytes if the operation requires it. An input mask is an array of numbers, set where they are 1; an output mask is returned as
+// bits.
 namespace lanescape::testing {
 
-// Operations that vectors of doubles and of floats share.
+// Operations for vectors of doubles and of floats.
 template <class T>
 struct VectorOperations {
   using Unary = void (*)(const T* a, T* out);
@@ -40,8 +41,8 @@ struct SimdOperations {
   double (*reduce_add)(const double* v);
   double (*reduce_max)(const double* v);
   double (*reduce_min)(const double* v);
-  void (*reduce_add_four)(double* out, const double* abcd);  // four vectors one after the other
-  void (*store_point)(double* out, const double* xyz);       // three
+  void (*reduce_add_four)(double* out, const double* abcd);  // four vectors, contiguous
+  void (*store_point)(double* out, const double* xyz);       // three vectors
   void (*gather)(const double* base, const std::int32_t* index, double* out);
   void (*gather_records)(const double* base, const std::int32_t* index, double* out);   // eight vectors
   void (*gather_points)(const double* base, const std::uint32_t* offset, double* out);  // three

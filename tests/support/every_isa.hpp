@@ -8,7 +8,7 @@
 
 namespace lanescape::testing {
 
-// A test for each instruction set; those that are not here are skipped, with the reason.
+// A test for each instruction set; unavailable ones are skipped with the reason.
 class EveryIsa : public ::testing::TestWithParam<Isa> {
  protected:
   void SetUp() override {

@@ -12,10 +12,10 @@
 
 namespace lanescape::testing {
 
-// Keeps fields in memory. A name that is written twice, and one that is read but was not written with that type, throw.
+// Keeps fields in memory. Throws if a name is written twice, or is read but was not written with that type.
 class MemoryArchive final : public Archive {
  public:
-  // From here on fields are read, from the outermost group.
+  // Switches to reading, from the outermost group.
   void rewind() {
     reading_ = true;
     groups_.clear();
@@ -48,7 +48,7 @@ class MemoryArchive final : public Archive {
   std::map<std::string, Field> fields_;
 };
 
-// Hands the state of one object on to another.
+// Copies the state of one object to another through an archive.
 template <class From, class To>
 void hand_on(From& from, To& to) {
   MemoryArchive archive;

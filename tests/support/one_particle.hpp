@@ -12,7 +12,7 @@
 
 namespace lanescape::testing {
 
-// V of one particle's distance r from the origin: paths on it can be worked out by hand.
+// V depends on one particle's distance r from the origin, so paths can be computed by hand.
 class OneParticle : public SoftLandscape {
  public:
   OneParticle() : layout_({0}, 1), algebra_(kernel_table(choose_isa("auto"))) {}
@@ -39,13 +39,13 @@ class OneParticle : public SoftLandscape {
   VectorAlgebra algebra_;
 };
 
-// V = r^2/2: V <= E is the inside of a sphere of radius sqrt(2 E).
+// V = r^2/2: V <= E is the region inside a sphere of radius sqrt(2 E).
 class Bowl final : public OneParticle {
   double value(double r) const override { return 0.5 * r * r; }
   double slope_over_r(double) const override { return 1.0; }
 };
 
-// V = exp(-r^2/2): V <= E is the outside of a sphere of radius sqrt(-2 ln E).
+// V = exp(-r^2/2): V <= E is the region outside a sphere of radius sqrt(-2 ln E).
 class Hill final : public OneParticle {
   double value(double r) const override { return std::exp(-0.5 * r * r); }
   double slope_over_r(double r) const override { return -std::exp(-0.5 * r * r); }
@@ -57,7 +57,7 @@ class Plateau final : public OneParticle {
   double slope_over_r(double) const override { return 0.0; }
 };
 
-// What a stepper is told about the way from one point to another.
+// The input of a stepper for the path from one point to another.
 struct Way {
   AlignedArray position, to_goal;
   double distance;

@@ -8,7 +8,8 @@
 
 namespace lanescape::testing {
 
-// The message with which `action` refuses its input; a failure of the test if it does not, or not in one line.
+// The message with which `action` refuses its input. The test fails if it does not refuse it, or if the message has more than one
+// line.
 template <class Action>
 std::string refusal(Action action, ErrorCode code = ErrorCode::bad_input) {
   try {

@@ -7,7 +7,7 @@
 
 namespace lanescape::testing {
 
-// Asks a run to stop when it has looked `looks` times.
+// Requests a stop from query number `looks` on.
 class StoppingMonitor final : public RunMonitor {
  public:
   explicit StoppingMonitor(int looks) : looks_(looks) {}

@@ -16,13 +16,13 @@
 
 namespace lanescape::testing {
 
-// A folder of its own for each test, gone afterwards.
+// A separate folder for each test, deleted afterwards.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
     std::string name = std::string(test->test_suite_name()) + "-" + test->name();
-    std::replace(name.begin(), name.end(), '/', '-');  // of parametrised tests
+    std::replace(name.begin(), name.end(), '/', '-');  // in names of parametrised tests
     path_ = std::filesystem::path(::testing::TempDir()) / ("lanescape-" + std::to_string(::getpid()) + "-" + name);
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
@@ -49,7 +49,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-// Lets files grow to `bytes` only, as a full disk would.
+// Limits files to `bytes`, as a full disk would.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

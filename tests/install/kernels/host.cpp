@@ -1,4 +1,4 @@
-// Runs one kernel of every instruction set that this processor has.
+// Runs one kernel of every instruction set that this processor supports.
 
 #include <cstdio>
 

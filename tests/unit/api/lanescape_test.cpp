@@ -30,7 +30,7 @@ TEST(Facade, ListsTheInstructionSetsOfThisProcessor) {
   EXPECT_EQ(instruction_sets(), available);
 }
 
-// B and A, across a face of the box `r` apart: sigma_AB = 0.8, epsilon_AB = 1.5.
+// B and A, `r` apart across a face of the box: sigma_AB = 0.8, epsilon_AB = 1.5.
 LennardJonesPotential a_and_b(const Options& options = {}) { return {std::vector<int>{1, 0}, cube, options}; }
 std::vector<double> apart(double r) { return {10.0 - r, 2.0, 3.0, 0.0, 2.0, 3.0}; }
 
@@ -59,7 +59,7 @@ TEST(LennardJonesPotential, EndsAtTheCutoffInUnitsOfSigma) {
   EXPECT_EQ(potential.energy(apart(1.201)), 0.0);
 }
 
-// Unwrapped particles in a box that is shorter than the cutoff's diameter, and species in no order.
+// Unwrapped particles in a box shorter than twice the cutoff, with species in arbitrary order.
 TEST(LennardJonesPotential, HasEnergiesForcesAndVirialsOfTheReference) {
   const Configuration configuration =
       read_frames(std::string(LANESCAPE_TEST_DATA_DIR) + "/ka_unwrapped_45.extxyz", kob_andersen()).front().configuration;
@@ -125,7 +125,7 @@ TEST(LennardJonesPotential, ThrowsWhatHostsCanCatch) {
   EXPECT_THROW(neighbour_pairs(std::vector<double>{0.0}, cube, 1.0), std::runtime_error);
 }
 
-// Two particles that see each other twice across the short edge, and one that sees itself.
+// Two particles that are neighbours twice across the short edge, and one that is its own neighbour.
 TEST(NeighbourPairs, AreOrderedAndHoldImagesOfAParticleItself) {
   const NeighbourPairs pairs = neighbour_pairs(std::vector<double>{1.0, 1.0, 1.0, 1.0, 1.0, 2.0}, {10.0, 10.0, 2.5}, 2.0);
   EXPECT_EQ(pairs.first, (std::vector<std::size_t>{0, 0, 1, 1}));

@@ -90,7 +90,7 @@ TEST(NamedModel, EveryNameIsThereAndPotentialsWithoutPresetsAreNot) {
   for (std::string name; std::getline(names >> std::ws, name, ','); ++count)
     std::visit([](const auto& model) { model.check(); }, named_model(name));
   EXPECT_EQ(count, 13u);
-  EXPECT_EQ(model_names().find("yukawa"), std::string::npos);  // its kappa has no preset
+  EXPECT_EQ(model_names().find("yukawa"), std::string::npos);  // its kappa has no default
 }
 
 TEST(NamedModel, AnUnknownNameIsRefusedWithTheNamesThereAre) {

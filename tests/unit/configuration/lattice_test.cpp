@@ -20,7 +20,7 @@ namespace {
 
 using testing::refusal;
 
-// FNV-1a over the bits of everything a start is made of.
+// FNV-1a hash over the bits of a complete start.
 std::uint64_t fingerprint(const Configuration& c) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   const auto take = [&](std::uint64_t bits) {
@@ -32,7 +32,7 @@ std::uint64_t fingerprint(const Configuration& c) {
   return hash;
 }
 
-// The least r_ij / s_ij over all pairs and the 27 images around each, a sphere's own included.
+// The smallest r_ij / s_ij over all pairs and 27 images of each, including a sphere's own images.
 double least_ratio(const Configuration& c) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < c.size(); ++i)
@@ -126,7 +126,7 @@ TEST(HardSphereStart, RandomPlacesDependOnTheSeedAndHalvesOfAFullLatticeDoNot) {
 }
 
 TEST(HardSphereStart, LatticesReachWhatGeometrySays) {
-  // Of equal spheres, close packing is beyond the 0.74 that is allowed; one sphere touches its own images.
+  // Equal spheres: close packing exceeds the allowed 0.74; a single sphere touches its own images.
   EXPECT_EQ(largest_lattice_packing_fraction(hard_sphere(), 108, Arrangement::random, 1), 0.74);
   EXPECT_NEAR(largest_lattice_packing_fraction(hard_sphere(), 1, Arrangement::random, 1), std::numbers::pi / 6.0, 1e-11);
   // Neighbouring large spheres touch: 4 spheres in a cell of edge 1.4 sqrt 2.

@@ -11,7 +11,8 @@
 namespace lanescape {
 namespace {
 
-// std::visit needs a function object that takes every alternative. A fourth kind, even one derived from a mixture, finds none.
+// std::visit needs a function object that accepts every alternative. This one rejects a fourth kind, even one derived from a
+// mixture.
 struct FourthKind : Mixture {};
 using AskEveryKind = decltype(Overloaded{[](const PairModel&) { return 1; }, [](const HardSphereModel&) { return 2; },
                                          [](const StateMixtureModel&) { return 3; }});

@@ -1,4 +1,4 @@
-// Each pair potential as its host side has it: u(r) against its own derivatives, truncations at the cutoff, and what is refused.
+// The host side of each pair potential: u(r) compared with its own derivatives, truncations at the cutoff, and refused input.
 
 #include "configuration/pair_form.hpp"
 
@@ -14,7 +14,7 @@
 namespace lanescape {
 namespace {
 
-// One species whose epsilon and sigma are not 1, so that no unit hides. Forms without presets get a number here.
+// One species with epsilon and sigma different from 1, so that a missing unit shows. Parameters without a default are set to 3.
 PairModel model_of(const PairForm& form, double sigma = 0.9) {
   PairModel model = lennard_jones();
   model.form = &form;
@@ -61,7 +61,8 @@ TEST(PairForm, TruncationsVanishAtTheCutoffToTheirOrder) {
     EXPECT_NEAR(at_cutoff(Truncation::shifted).u, 0.0, 1e-14) << form.word;
     EXPECT_NEAR(at_cutoff(Truncation::shifted_force).u, 0.0, 1e-14) << form.word;
     EXPECT_NEAR(at_cutoff(Truncation::shifted_force).first, 0.0, 1e-14) << form.word;
-    // Hertzian spheres have a curvature with a root at the cutoff itself; their correction is nil all the same.
+    // For Hertzian spheres the second derivative is a square root that vanishes at the cutoff itself; their correction is zero as
+    // well.
     const PairDerivatives smooth = at_cutoff(Truncation::smooth);
     for (const double value : {smooth.u, smooth.first, smooth.second}) EXPECT_NEAR(value, 0.0, 1e-12) << form.word;
   }
@@ -71,7 +72,7 @@ TEST(PairForm, RepulsionHasTheGivenEnergyAtItsDistance) {
   for (const PairForm& form : pair_forms()) {
     const PairModel model = model_of(form);
     const std::string word = form.word;
-    // The repulsion alone is u(r) in these; in the others an attraction is missing from it.
+    // In these forms the repulsion is the whole u(r); in the others it leaves out an attraction.
     if (word != "inverse-power" && word != "yukawa" && word != "harmonic" && word != "hertzian") continue;
     for (const double energy : {0.01, 0.3}) {
       const double r = form.repulsive_distance(model.numbers(0), energy);

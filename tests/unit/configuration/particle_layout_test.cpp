@@ -15,11 +15,11 @@ namespace {
 
 std::vector<double> numbered(std::size_t particles) {
   std::vector<double> coordinates(3 * particles);
-  std::iota(coordinates.begin(), coordinates.end(), 1.0);  // no zero, which is what padding holds
+  std::iota(coordinates.begin(), coordinates.end(), 1.0);  // no zeros, because padding holds zeros
   return coordinates;
 }
 
-// `count` particles of three species, the last of which has none.
+// `count` particles of three species; the last species has none.
 std::vector<int> mixed(std::size_t count) {
   std::vector<int> species;
   for (std::size_t i = 0; i < count; ++i) species.push_back(i % 5 == 3 ? 1 : 0);
@@ -108,7 +108,7 @@ TEST(ParticleLayout, NoParticlesTakeNoSlots) {
   EXPECT_TRUE(layout.to_user({}).empty());
 }
 
-// Particles at random, numbers beyond the box included.
+// Particles at random positions, some of them outside the box.
 Configuration gas(std::size_t particles) {
   Configuration gas{{{20.0, 10.0, 15.0}}, mixed(particles), {}};
   std::mt19937_64 engine(1);
@@ -136,7 +136,7 @@ TEST(ParticleLayout, OfManyParticlesHasNearbyOnesInNearbySlotsAndEveryOneInItsSp
   EXPECT_EQ(slots.size(), many.size());
   EXPECT_EQ(layout.to_user(layout.to_slots(many.positions)), many.positions);
 
-  // From slot to slot a particle is a fraction of the box away; at random it would be some 5 to 10.
+  // Successive slots are a fraction of the box apart; in random order they would be about 5 to 10 apart.
   const AlignedArray r = layout.to_slots(many.positions);
   double sum = 0.0;
   const std::size_t count = layout.blocks()[0].count;

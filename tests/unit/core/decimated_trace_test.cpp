@@ -15,7 +15,7 @@ void run(DecimatedTrace& trace, std::uint64_t from, std::uint64_t to) {
   }
 }
 
-// Whether rows are those of steps stride, 2 stride, ... up to the last.
+// True if the rows are those of steps stride, 2 stride, ... up to the last.
 void expect_rows_every(const DecimatedTrace& trace, double stride, std::size_t rows) {
   ASSERT_EQ(trace.rows(), rows);
   for (std::size_t row = 0; row < rows; ++row) {

@@ -17,8 +17,8 @@ double from_words(std::uint32_t high, std::uint32_t low) {
   return (std::ldexp(double(high), 20) + double(low >> 12) + 0.5) * 0x1p-52;
 }
 
-// Known answers of philox4x32-10 published with Random123 (kat_vectors): counter, key -> first two words. The stream is
-// folded into the last counter word, so `draw` takes it out again.
+// Known answers of philox4x32-10, published with Random123 (kat_vectors): counter, key -> first two words. The stream is mixed into
+// the last counter word, so `draw` removes it again.
 TEST(CounterRandom, IsThePublishedPhilox) {
   const auto draw = [](std::uint32_t word) { return word ^ (std::uint32_t{1} << 24); };
   const RandomStream stream = RandomStream::species;
@@ -56,7 +56,7 @@ TEST(CounterRandom, StreamsDiffer) {
         EXPECT_NE(CounterRandom(1, streams[a]).uniform(0, i), CounterRandom(1, streams[b]).uniform(0, i));
 }
 
-// Bounds below are five standard errors of the sample.
+// The bounds below are five standard errors of the sample.
 TEST(CounterRandom, UniformNumbersHaveTheirMeanAndVariance) {
   const CounterRandom random(1, RandomStream::sites);
   double sum = 0.0, squares = 0.0;

@@ -12,7 +12,7 @@
 namespace lanescape {
 namespace {
 
-// Sets or unsets LANESCAPE_ISA and puts back what was there.
+// Sets or unsets LANESCAPE_ISA and restores the previous value at the end.
 class Environment {
  public:
   explicit Environment(const char* value) {
@@ -140,8 +140,9 @@ TEST(KernelTable, CarriesTheNameOfItsInstructionSet) {
 TEST(KernelTable, HasAllItsKernels) {
   for (const Isa isa : available_isas()) {
     const kernels::KernelTable& table = kernel_table(isa);
-    EXPECT_TRUE(table.pair[0] && table.pair[0]->energy && table.pair[0]->gradient && table.pair[0]->stress && table.dot && table.distance_squared &&
-                table.difference && table.combine && table.axpy && table.displacement_moments && table.peak_rounds)
+    EXPECT_TRUE(table.pair[0] && table.pair[0]->energy && table.pair[0]->gradient && table.pair[0]->stress && table.dot &&
+                table.distance_squared && table.difference && table.combine && table.axpy && table.displacement_moments &&
+                table.peak_rounds)
         << table.name;
     EXPECT_EQ(kernels::slot_padding % table.lanes, 0U) << table.name;
   }

@@ -15,7 +15,7 @@ AlignedArray waves(std::size_t length, double phase) {
   return values;
 }
 
-// Below one block, exactly one, some blocks, and blocks with a rest.
+// Less than one block, exactly one, several, and several with a remainder.
 const std::size_t lengths[] = {24, 16'384, 3 * 16'384, 100'008};
 
 TEST(VectorAlgebra, HasTheSameBitsOnAnyNumberOfThreads) {

@@ -27,7 +27,7 @@ TEST(EventCalendar, KnowsTheEarliestOfTimesSetAtOnce) {
 TEST(EventCalendar, FollowsTheEarliestAsItIsPutOff) {
   EventCalendar calendar(300, best_table());
   std::vector<double> times(300);
-  for (std::size_t i = 0; i < 300; ++i) times[i] = static_cast<double>((i * 7) % 300);  // each number once
+  for (std::size_t i = 0; i < 300; ++i) times[i] = static_cast<double>((i * 7) % 300);  // each number occurs once
   calendar.assign(times);
   for (int expected = 0; expected < 300; ++expected) {
     ASSERT_EQ(calendar.first_time(), expected);

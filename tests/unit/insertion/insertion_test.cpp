@@ -27,7 +27,7 @@ const kernels::KernelTable& table() { return kernel_table(choose_isa("auto")); }
 constexpr InsertionMethod every_method[] = {InsertionMethod::usher, InsertionMethod::usher_indirect, InsertionMethod::usher_near,
                                             InsertionMethod::screened, InsertionMethod::descent};
 
-// A molten Kob-Andersen mixture, thinned to a density at which there is room for more.
+// A molten Kob-Andersen mixture with a third of its particles removed, so that there is room for more.
 Configuration thin_mixture() {
   Configuration fluid =
       read_frames(std::string(LANESCAPE_TEST_DATA_DIR) + "/ka_melted_144.extxyz", kob_andersen()).front().configuration;
@@ -107,7 +107,7 @@ TEST(Insertion, ATrialOfDirectUsherIsThatOfTheReference) {
     found += trial.found;
     longest = std::max(longest, energies.size());
   }
-  // Of both kinds, and of some length.
+  // Searches that succeed, searches that fail, and some long ones.
   EXPECT_GT(found, 10U);
   EXPECT_LT(found, 60U);
   EXPECT_GT(longest, 10U);
@@ -328,7 +328,7 @@ TEST(Holes, TheFitOfAProlateEllipsoidIsInvertedExactly) {
 }
 
 TEST(Holes, InACageOfSixTheRadiusAlongTheAxesIsWhereTheEnergyRises) {
-  // A cage with the symmetry of an octahedron is nearly round, and <R> lies between the radii towards a particle and between them.
+  // A cage with octahedral symmetry is nearly round, and <R> lies between the radii towards a particle and between particles.
   const PairModel model = lennard_jones();
   const double d = 1.2;
   const Configuration cage{
@@ -337,7 +337,7 @@ TEST(Holes, InACageOfSixTheRadiusAlongTheAxesIsWhereTheEnergyRises) {
   const double iso = field.energy({6.25, 6.0, 6.0});
   const auto hole = measure_hole(field, {6.0, 6.0, 6.0}, iso);
   ASSERT_TRUE(hole);
-  // Towards a particle the energy has risen to that value at 0.25; between three of them it has not.
+  // Towards a particle the energy reaches that value at 0.25; between three particles it does so further out.
   EXPECT_GT(hole->mean_radius, 0.25);
   EXPECT_GT(hole->mean_square, hole->mean_radius * hole->mean_radius);
   EXPECT_GE(hole->semi_major, hole->semi_minor);

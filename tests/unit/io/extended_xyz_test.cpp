@@ -104,8 +104,8 @@ TEST(ExtendedXyz, ASecondFrameIsRefusedWhereOneIsAllowed) {
 struct BadFile {
   const char* name;
   std::string content;
-  int line;              // that the message names; 0: the file only
-  std::string mentions;  // what is wrong or allowed
+  int line;              // line number in the message; 0: the file only
+  std::string mentions;  // text about the error or the allowed values
 };
 void PrintTo(const BadFile& bad, std::ostream* out) { *out << bad.name; }
 
@@ -216,7 +216,7 @@ TEST(ExtendedXyz, AnUnreadableFileIsRefusedByName) {
 
 TEST(ExtendedXyz, EveryPrefixOfAFileIsRefusedOrEndsInTheLastNumber) {
   const TemporaryFolder folder;
-  // Cut inside the last coordinate a file is still well formed; before it, never.
+  // A file cut inside the last coordinate is still well formed; a file cut before it never is.
   for (std::size_t length = 0; length + 3 < frame.size(); ++length) {
     const auto path = folder.file("cut.extxyz", frame.substr(0, length));
     refusal([&] { read_single_frame(path, kob_andersen()); });

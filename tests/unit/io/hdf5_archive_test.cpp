@@ -21,7 +21,7 @@
 #define LANESCAPE_LEAKS_ARE_CHECKED
 #endif
 #ifdef LANESCAPE_LEAKS_ARE_CHECKED
-// HDF5 1.10 loses memory whenever the checksum of an object header fails, which the tests of damage bring about.
+// HDF5 1.10 leaks memory when the checksum of an object header fails, as it does in the tests of damaged files.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libhdf5"; }
 #endif
 
@@ -34,7 +34,7 @@ using testing::FileSizeLimit;
 using testing::refusal;
 using testing::TemporaryFolder;
 
-// One field of every type, in and out of groups.
+// One field of every type, inside and outside groups.
 struct State {
   double time = 0.0;
   std::uint64_t step = 0;
@@ -100,7 +100,7 @@ State read(const std::filesystem::path& path) {
   return state;
 }
 
-// Small arrays lie in the object header, large ones in one chunk or several.
+// Small arrays are stored in the object header, large ones in one or several chunks.
 TEST(Hdf5Archive, EveryBitComesBackAtEverySize) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "state.h5";
@@ -238,7 +238,7 @@ TEST(Hdf5ArchiveRefusal, ATableIsNoRow) {
   expect_contains(refusal([&] { reader.field("table", values); }), path.string() + ": field /table has the wrong shape");
 }
 
-// A header may claim more than the file holds, or than memory does.
+// A header may claim more data than the file holds, or than fits in memory.
 TEST(Hdf5ArchiveRefusal, AFieldWithoutItsDataIsNamed) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "state.h5";
@@ -294,7 +294,7 @@ TEST(Hdf5ArchiveRefusal, AFileCutShortAnywhereIsNamed) {
   }
 }
 
-// Bytes that nothing depends on may change unnoticed; no other value may ever come out.
+// A change of unused bytes may stay unnoticed, but a read must never return other values.
 TEST(Hdf5ArchiveRefusal, ADamagedFileNeverGivesOtherValues) {
   const TemporaryFolder folder;
   const State state = awkward_state(1100);
@@ -317,7 +317,7 @@ TEST(Hdf5ArchiveRefusal, ADamagedFileNeverGivesOtherValues) {
   EXPECT_GT(refused, tried / 2);
 }
 
-// One line of the program's on stderr is the contract; the library must not add to it at exit.
+// The program prints exactly one line on stderr; the library must print nothing more at exit.
 TEST(Hdf5ArchiveRefusalDeathTest, ADamagedHeaderLeavesTheExitSilent) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto read_damaged = [] {

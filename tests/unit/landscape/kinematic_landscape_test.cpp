@@ -14,7 +14,7 @@
 namespace lanescape {
 namespace {
 
-// Kob and Andersen's mixture with forces that end smoothly.
+// Kob and Andersen's mixture with forces that go to zero smoothly.
 PairModel mixture(double first_mass, double second_mass) {
   PairModel model = kob_andersen();
   model.species[0].mass = first_mass;
@@ -23,7 +23,7 @@ PairModel mixture(double first_mass, double second_mass) {
   return model;
 }
 
-// Sites of a lattice of which some are empty, so that there are forces.
+// A lattice with some empty sites, so that there are forces.
 struct System {
   PairModel model;
   Configuration configuration;

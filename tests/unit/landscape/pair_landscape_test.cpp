@@ -42,7 +42,7 @@ TEST_P(PairLandscapeOn, HasTheBitsOfThePairInteraction) {
   }
 }
 
-// Moved by less than wears the list out, which decides the order of sums.
+// The particles move too little for a rebuild of the list, which determines the order of sums.
 TEST(PairLandscape, HandedOnToAnotherItGoesOnWithTheSameList) {
   const Configuration configuration = stored("ka_rattled_256.extxyz");
   const ParticleLayout layout(configuration.species, 2);

@@ -39,7 +39,7 @@ double distance(const Box& box, const Point& a, const Point& b) {
   return std::sqrt(squared);
 }
 
-// Every particle nearer than `edge` is met, each once. Returns the mean number of those met.
+// Checks that every particle closer than `edge` is found, each once. Returns the mean number of particles found.
 double expect_no_neighbour_missed(const Box& box, double edge, const CellGrid& grid, const std::vector<Point>& points) {
   double met = 0.0;
   for (const Point& at : points) {
@@ -65,7 +65,7 @@ TEST(CellGrid, FindsEveryPairNearerThanTheEdge) {
     for (const double edge : {1.0, 0.7}) {
       const auto points = random_points(400, box, 1);
       const double met = expect_no_neighbour_missed(box, edge, filled(box, edge, points), points);
-      EXPECT_LT(met, 400.0);  // else nothing is gained
+      EXPECT_LT(met, 400.0);  // otherwise the grid is useless
     }
 }
 
@@ -73,7 +73,7 @@ TEST(CellGrid, MeetsNoMoreThanTwentySevenCellsWorthOfParticles) {
   const Box box{{10.0, 10.0, 10.0}};
   const auto points = random_points(1000, box, 2);
   const double met = expect_no_neighbour_missed(box, 1.0, filled(box, 1.0, points), points);
-  EXPECT_NEAR(met, 28.0, 2.0);  // 27 by chance and the one itself
+  EXPECT_NEAR(met, 28.0, 2.0);  // 27 by chance, and the particle itself
 }
 
 TEST(CellGrid, HasOneCellWhereABoxHoldsFewerThanThreeAlongAnAxis) {
@@ -99,11 +99,11 @@ TEST(CellGrid, FindsParticlesAgainAfterTheyMoved) {
 
 TEST(CellGrid, PutsUnwrappedPositionsIntoTheirImagesCell) {
   const Box box{{6.0, 6.0, 6.0}};
-  CellGrid grid(box, 1.0, 100);  // few particles would get few cells
+  CellGrid grid(box, 1.0, 100);  // a grid for few particles would have few cells
   grid.insert(0, {0.5, 0.5, 0.5});
   EXPECT_EQ(near(grid, {0.5 - 18.0, 0.5 + 6.0, 5.9}), std::vector<std::int32_t>{0});
   EXPECT_TRUE(near(grid, {3.0, 0.5, 0.5}).empty());
-  grid.insert(1, {-0.1, 12.2, 6.0});  // on the face itself
+  grid.insert(1, {-0.1, 12.2, 6.0});  // exactly on the face
   EXPECT_EQ(near(grid, {0.5, 0.5, 0.5}), (std::vector<std::int32_t>{0, 1}));
   EXPECT_EQ(near(grid, {-1e-20, -1e-20, -1e-20}), (std::vector<std::int32_t>{0, 1}));
 }

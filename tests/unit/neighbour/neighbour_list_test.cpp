@@ -24,7 +24,7 @@ struct Fluid {
   std::vector<double> positions;
 };
 
-// Particles at random, some of them boxes away from the box.
+// Particles at random positions, some of them boxes away.
 Fluid random_fluid(const std::array<double, 3>& length, std::size_t particles, std::size_t species, unsigned seed) {
   std::mt19937_64 engine(seed);
   std::uniform_real_distribution<double> place(-1.5, 2.5);
@@ -38,7 +38,7 @@ Fluid random_fluid(const std::array<double, 3>& length, std::size_t particles, s
 
 const std::vector<double> cutoffs = {1.5, 1.2, 1.2, 0.9};  // of two species
 
-// A neighbour as seen from a row: the neighbour's particle and the separation, in units that rounding does not reach.
+// A neighbour of a row: its particle and the separation, rounded to units coarser than rounding errors.
 using Neighbour = std::tuple<std::size_t, long, long, long>;
 using Neighbours = std::vector<std::vector<Neighbour>>;  // by particle, sorted
 
@@ -46,7 +46,7 @@ Neighbour neighbour(std::size_t particle, const std::array<double, 3>& d) {
   return {particle, std::lround(d[0] * 1e6), std::lround(d[1] * 1e6), std::lround(d[2] * 1e6)};
 }
 
-// Every image of every other particle within the cutoff, looked for among all of them.
+// Every image of every other particle within the cutoff: brute force, to check the list.
 Neighbours by_force(const Fluid& fluid, const std::vector<double>& cutoffs_of_pairs, std::size_t species) {
   const std::size_t n = fluid.species.size();
   Neighbours found(n);
@@ -73,7 +73,7 @@ Neighbours by_force(const Fluid& fluid, const std::vector<double>& cutoffs_of_pa
   return found;
 }
 
-// The list's neighbours within `cutoffs_of_pairs`, or all of them where that is empty.
+// The list's neighbours within `cutoffs_of_pairs`, or all of them if that is empty.
 Neighbours of_list(const NeighbourList& list, const ParticleLayout& layout, const std::vector<double>& cutoffs_of_pairs) {
   std::map<std::size_t, std::size_t> particle_in;
   for (std::size_t i = 0; i < layout.size(); ++i) particle_in[layout.slot_of(i)] = i;
@@ -100,7 +100,7 @@ using NeighbourListOnEveryIsa = testing::EveryIsa;
 
 INSTANTIATE_TEST_SUITE_P(EveryIsa, NeighbourListOnEveryIsa, testing::all_isas(), testing::isa_name);
 
-// Large boxes, boxes of one cell, of less than the cutoff, of every shape; from nothing to many particles in one cell.
+// Large boxes, boxes of one cell, boxes shorter than the cutoff, of every shape; from zero to many particles per cell.
 TEST_P(NeighbourListOnEveryIsa, HoldsEveryImageWithinTheCutoffInBoxesOfEverySize) {
   const std::vector<std::array<double, 3>> boxes = {{9.0, 9.0, 9.0}, {7.0, 5.5, 8.2},  {3.1, 3.0, 2.9}, {1.0, 1.1, 0.9},
                                                     {0.7, 0.6, 6.0}, {12.0, 0.8, 5.0}, {1.5, 1.5, 1.5}};
@@ -131,7 +131,7 @@ TEST_P(NeighbourListOnEveryIsa, MissesNoPairWhileParticlesWander) {
   EXPECT_LT(list.rebuilds(), 40U);
 }
 
-// Two particles that fly at each other: the most that a pair can gain on the list.
+// Two particles that approach each other: the fastest way for a pair to come into range.
 TEST(NeighbourList, IsMadeAnewBeforeTwoParticlesCanHaveComeIntoRangeUnseen) {
   Fluid fluid{{{20.0, 20.0, 20.0}}, {0, 0}, {5.0, 5.0, 5.0, 5.0 + 1.5 + 0.3 + 1e-3, 5.0, 5.0}};
   const ParticleLayout layout(fluid.species, 2);
@@ -168,7 +168,7 @@ TEST(NeighbourList, IsTheSameWhateverTheNumberOfThreads) {
         for (std::size_t k = 0; k < segments; ++k) offsets += padded(x.lengths[k]);
         EXPECT_TRUE(std::equal(x.neighbours, x.neighbours + offsets, y.neighbours));
       }
-      // Every block has one part that does it.
+      // Exactly one part handles each block.
       EXPECT_EQ(many.first_block(0), 0U);
       EXPECT_EQ(many.first_block(threads), many.block_count());
       for (int part = 0; part < threads; ++part) EXPECT_LE(many.first_block(part), many.first_block(part + 1));
@@ -182,7 +182,7 @@ TEST(NeighbourList, HasAnEvenShareForEveryPart) {
   NeighbourList list = make_list(fluid, layout, 0.3, available_isas().back(), 4);
   list.update(layout.to_slots(fluid.positions));
   const auto work = [&](int part) {
-    std::size_t vectors = 0;  // in lanes
+    std::size_t vectors = 0;  // counted in lanes
     for (std::size_t b = list.first_block(part); b < list.first_block(part + 1); ++b) {
       const kernels::NeighbourRows rows = list.rows_of(b);
       for_each_segment(rows, [&](std::size_t, std::size_t, auto offsets) { vectors += padded(offsets.size()); });

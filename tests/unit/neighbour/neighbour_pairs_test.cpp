@@ -28,7 +28,7 @@ std::vector<Pair> as_rows(const OrderedPairs& pairs) {
   return rows;
 }
 
-// Every shift that could matter of every pair, in order: as the formulas stand.
+// Every relevant shift of every pair, in order: brute force, to check the pairs.
 std::vector<Pair> by_force(const Box& box, const std::vector<double>& positions, double cutoff) {
   std::vector<Pair> rows;
   for (std::size_t i = 0; i < positions.size() / 3; ++i)
@@ -53,7 +53,7 @@ std::vector<Pair> by_force(const Box& box, const std::vector<double>& positions,
   return rows;
 }
 
-// Particles at random, up to `boxes` boxes from the box.
+// Particles at random positions, up to `boxes` boxes away.
 std::vector<double> random_positions(const Box& box, std::size_t particles, double boxes, unsigned seed) {
   std::mt19937_64 engine(seed);
   std::uniform_real_distribution<double> place(-boxes, 1.0 + boxes);
@@ -84,8 +84,8 @@ TEST_P(OrderedPairsOnEveryIsa, AreThoseOfAllPairsToTheLastBitInBoxesOfEverySize)
     }
 }
 
-// On a lattice whose distances are exact numbers, a step of the last digit of the cutoff takes in a shell of neighbours or leaves
-// it out.
+// On a lattice with exactly representable distances, a change of the cutoff by its last digit includes or excludes a shell of
+// neighbours.
 TEST_P(OrderedPairsOnEveryIsa, EndBeforeTheCutoffToTheLastDigit) {
   const Box box{{4.0, 4.0, 4.0}};
   std::vector<double> positions;
@@ -99,11 +99,11 @@ TEST_P(OrderedPairsOnEveryIsa, EndBeforeTheCutoffToTheLastDigit) {
   EXPECT_EQ(neighbours(std::nextafter(1.0, infinity)), 6U);
   EXPECT_EQ(neighbours(std::sqrt(2.0)), 6U);
   EXPECT_EQ(neighbours(std::nextafter(std::sqrt(2.0), infinity)), 18U);
-  EXPECT_EQ(neighbours(5.0), 484U);  // points of a lattice within 5, but for those at 5: (+-5,0,0) and (+-3,+-4,0)
+  EXPECT_EQ(neighbours(5.0), 484U);  // lattice points within 5, without those at exactly 5: (+-5,0,0) and (+-3,+-4,0)
   EXPECT_EQ(neighbours(std::nextafter(5.0, infinity)), 514U);
 }
 
-// Pairs at the cutoff, one of each at a face of the box, but for what rounding does to them, which far away is a lot.
+// Pairs at the cutoff, up to rounding, with one of each pair at a face of the box; far away from the box rounding is large.
 TEST(OrderedPairs, AreDecidedAsTheFormulaRoundsHoweverFarParticlesAre) {
   const Box box{{9.1, 8.3, 7.7}};
   for (const double away : {1e2, 1e4, 1e6, 4e7}) {

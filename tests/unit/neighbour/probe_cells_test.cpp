@@ -21,7 +21,7 @@ std::vector<Point> random_points(std::size_t n, const Box& box, std::uint64_t wh
   return points;
 }
 
-// All points in the grid, cell by cell; each must lie in the cell that holds it.
+// All points in the grid, cell by cell; each must be inside its cell.
 std::vector<Point> points_in(const ProbeCells& cells) {
   const kernels::ProbeSpecies view = cells.view();
   std::vector<Point> points;
@@ -42,7 +42,7 @@ std::vector<Point> points_in(const ProbeCells& cells) {
   return points;
 }
 
-// By trying every shift.
+// Brute force over every shift.
 std::vector<Point> images_of(const std::vector<Point>& points, const Box& box, double reach) {
   std::vector<Point> images;
   for (const Point& p : points)
@@ -74,7 +74,7 @@ TEST(ProbeCells, HoldEveryPointAndImageWithinReachOnceInItsCell) {
 TEST(ProbeCells, PutInAndTakenOutOneByOneHoldTheSameAsAssigned) {
   for (const Box& box : boxes) {
     const std::vector<Point> points = random_points(150, box, 7);
-    // Made for one point, so that columns overflow on the way.
+    // The grid is sized for one point, so columns overflow.
     ProbeCells cells(box, 2.5, 1);
     for (const Point& p : points) cells.insert(p);
     EXPECT_EQ(cells.size(), points.size());

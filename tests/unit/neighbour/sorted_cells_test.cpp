@@ -17,7 +17,7 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-// In the box and, `boxes` above 0, up to that many of its images away.
+// Points in the box or, if `boxes` is above 0, up to that many boxes away.
 Configuration random_points(std::size_t n, const Box& box, std::uint64_t which, double boxes = 0.0) {
   const CounterRandom random(1, RandomStream::displacements);
   Configuration points{box, std::vector<int>(n, 0), {}};

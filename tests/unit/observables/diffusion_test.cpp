@@ -24,7 +24,7 @@ ParticleLayout mixture(std::size_t first, std::size_t second) {
   return ParticleLayout(species, 2);
 }
 
-// Puts value(particle axis) into every coordinate of a species.
+// Writes value(particle axis) to every coordinate of a species.
 void fill(AlignedArray& array, const ParticleLayout& layout, std::size_t species, const std::function<double(std::size_t)>& value) {
   const auto& block = layout.blocks()[species];
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -46,8 +46,8 @@ TrajectoryRecord free_flight(const ParticleLayout& layout, const DiffusionWindow
   return record;
 }
 
-// Langevin particles without forces: velocities are an Ornstein-Uhlenbeck process of the given temperature and memory time, and
-// positions their exact integral (Gillespie, doi 10.1103/PhysRevE.54.2084). C(t) = 3 T exp(-t/tau), D = T tau.
+// Langevin particles without forces. Velocities are an Ornstein-Uhlenbeck process with the given temperature and memory time, and
+// positions are its exact integral (Gillespie, doi 10.1103/PhysRevE.54.2084). C(t) = 3 T exp(-t/tau), D = T tau.
 class LangevinParticles {
  public:
   LangevinParticles(const ParticleLayout& layout, double interval, std::vector<double> temperatures, std::vector<double> times,
@@ -111,7 +111,7 @@ TEST(Diffusion, WindowsThatCannotBeAreRefused) {
   expect_refused({0.1, 0, 10}, "window of 0");
   expect_refused({0.1, 10, 10}, "too few");
   expect_refused({0.1, 11, 10}, "too few");
-  expect_refused({0.1, 1009, 3000}, "multiple");  // a prime
+  expect_refused({0.1, 1009, 3000}, "multiple");  // a prime number
   expect_refused({0.1, 100, 2'000'000'000}, "at most");
 }
 
@@ -134,7 +134,7 @@ TEST(Diffusion, CurvesAreTheirDoubleSumsOnAnyMotion) {
     std::mt19937_64 random(3);
     std::normal_distribution<double> normal;
     TrajectoryRecord record(layout, window);
-    std::vector<AlignedArray> velocities, positions;  // of no one trajectory, and with values in the padding
+    std::vector<AlignedArray> velocities, positions;  // unrelated to each other, and with values in the padding
     while (!record.full()) {
       for (auto* series : {&velocities, &positions}) {
         series->emplace_back(layout.dimension());
@@ -146,7 +146,7 @@ TEST(Diffusion, CurvesAreTheirDoubleSumsOnAnyMotion) {
     diffusion.add_trajectory(record);
     for (std::size_t s = 0; s < 2; ++s) {
       const auto& block = layout.blocks()[s];
-      const auto mean = [&](std::uint64_t every, const auto& value) {  // over origins and particles
+      const auto mean = [&](std::uint64_t every, const auto& value) {  // mean over origins and particles
         double sum = 0.0, samples = 0.0;
         for (std::uint64_t t = 0; t < window.origins(); t += every, samples += static_cast<double>(block.count))
           for (std::size_t axis = 0; axis < 3; ++axis)
@@ -159,7 +159,7 @@ TEST(Diffusion, CurvesAreTheirDoubleSumsOnAnyMotion) {
         const double c = mean(1, [&](std::uint64_t t, std::size_t k) { return velocities[t][k] * velocities[t + lag][k]; });
         const double d2 = mean(
             window.stride(), [&](std::uint64_t t, std::size_t k) { return std::pow(positions[t + lag][k] - positions[t][k], 2); });
-        EXPECT_NEAR(diffusion.velocity_correlation(s, p).value, c, 2e-7);  // velocities are kept as floats
+        EXPECT_NEAR(diffusion.velocity_correlation(s, p).value, c, 2e-7);  // velocities are stored as floats
         EXPECT_NEAR(diffusion.squared_displacement(s, p).value, d2, 1e-12);
       }
     }
@@ -181,7 +181,7 @@ TEST(Diffusion, LangevinParticlesDiffuseWithTemperatureTimesMemoryTime) {
       EXPECT_LT(*estimate.error, 0.12 * exact);
       EXPECT_NEAR(estimate.value, exact, 4.0 * *estimate.error);
     }
-    EXPECT_NEAR(vacf.value, msd.value, 2.0 * *vacf.error);  // the same trajectories
+    EXPECT_NEAR(vacf.value, msd.value, 2.0 * *vacf.error);  // both from the same trajectories
     EXPECT_EQ(diffusion.regime(s), DiffusionRegime::diffusive);
     const std::size_t middle = diffusion.points() / 10;  // about one memory time
     const Estimate c = diffusion.velocity_correlation(s, middle);
@@ -228,7 +228,7 @@ TEST(Diffusion, ParticlesThatRattleAreCagedHoweverFar) {
   const DiffusionWindow window{0.05, 400, 2000};  // t_max = 20
   TrajectoryRecord record(layout, window);
   AlignedArray velocity(layout.dimension(), 0.0), position(layout.dimension(), 0.0);
-  // The displacement squared goes as 1 - cos(w t) and is at t_max just short of its greatest.
+  // The squared displacement varies as 1 - cos(w t); at t_max it is just below its maximum.
   const double frequency = (7.0 * std::numbers::pi - 0.0455) / window.longest_time();
   while (!record.full()) {
     const double time = window.interval * static_cast<double>(record.records());
@@ -276,7 +276,7 @@ TEST(Diffusion, ErrorsAreStandardErrorsOverTrajectories) {
   EXPECT_EQ(diffusion.trajectories(), 0u);
   EXPECT_FALSE(diffusion.vacf_diffusion(0).error.has_value());
   for (int count = 1; count <= 16; ++count) {
-    // D(t_max) = v^2 t_max/3 is 2 and 8 in turn.
+    // D(t_max) = v^2 t_max/3 alternates between 2 and 8.
     diffusion.add_trajectory(free_flight(layout, window, {count % 2 == 1 ? 1.0 : 2.0, 0.5}));
     ASSERT_EQ(diffusion.trajectories(), static_cast<std::uint64_t>(count));
     EXPECT_EQ(diffusion.vacf_diffusion(0).error.has_value(), count > 1);
@@ -297,7 +297,7 @@ TEST(Diffusion, ARecordIsUsedAgainAfterItIsCleared) {
   EXPECT_THROW(record.record(still, still), Error);
   record.clear();
   DiffusionAccumulator diffusion(layout, window);
-  EXPECT_THROW(diffusion.add_trajectory(record), Error);  // not full
+  EXPECT_THROW(diffusion.add_trajectory(record), Error);  // it is not full
   while (!record.full()) record.record(still, still);
   diffusion.add_trajectory(record);
   EXPECT_EQ(diffusion.vacf_diffusion(1).value, 0.0);
@@ -313,7 +313,7 @@ TEST(Diffusion, TrajectoriesOfAnotherWindowOrLayoutAreRefused) {
   EXPECT_EQ(diffusion.trajectories(), 0u);
 }
 
-// A file that is gone with the test.
+// A file that is deleted with the test.
 struct ScratchFile {
   std::filesystem::path path =
       std::filesystem::temp_directory_path() / ("lanescape_diffusion_" + std::to_string(::getpid()) + ".h5");

@@ -8,7 +8,7 @@ namespace lanescape {
 namespace {
 
 TEST(Heterogeneity, IsTheSpreadOfTheLogarithmWithinEachSpecies) {
-  // Species 0: factors 10 and 1000 of the straight way; species 1: 100 twice; species 2 has no particle.
+  // Species 0: path lengths 10 and 1000 times the displacement; species 1: 100 times, twice; species 2 has no particles.
   const std::vector<double> lengths = {20.0, 100.0, 3000.0, 500.0}, straight = {2.0, 1.0, 3.0, 5.0};
   const std::vector<int> species = {0, 1, 0, 1};
   const auto widths = heterogeneity_widths(lengths, straight, species, 3);

@@ -26,7 +26,7 @@ Configuration random_mixture(std::size_t n, const Box& box) {
   return mixture;
 }
 
-// Pairs per bin, all pairs looked at one by one.
+// Pairs per bin by brute force over all pairs.
 std::vector<double> pairs_per_bin(const Configuration& c, int a, int b, std::size_t bins, double range) {
   std::vector<double> counts(bins, 0.0);
   for (std::size_t i = 0; i < c.size(); ++i)

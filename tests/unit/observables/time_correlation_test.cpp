@@ -20,7 +20,7 @@ TEST(TimeCorrelation, IsTheDoubleSumOverOriginsWithAFullWindow) {
   for (const auto [records, lags] :
        {Shape{1, 0}, Shape{2, 1}, Shape{30, 7}, Shape{97, 96}, Shape{120, 60}, Shape{251, 13}, Shape{1024, 300}}) {
     std::vector<float> values(records * row);
-    for (float& value : values) value = 0.25f + normal(random);  // a mean that a circular sum would show
+    for (float& value : values) value = 0.25f + normal(random);  // a nonzero mean makes circular sums visible
     const std::vector<double> correlation = full_window_correlation({values.data(), records, row, first, count}, lags);
     ASSERT_EQ(correlation.size(), lags + 1);
     for (std::size_t k = 0; k <= lags; ++k) {

@@ -33,7 +33,7 @@ PathFinder<Stepper> finder_on(OneParticle& landscape, double energy, const Point
 
 constexpr Point hill_start{-3.0, 0.2, 0.0}, hill_goal{3.0, 0.0, 0.1};
 
-// Around the sphere of radius 1 of the hill.
+// A path around the sphere of radius 1 of the hill.
 template <class Stepper>
 PathFinder<Stepper> around_the_hill(Hill& hill, double step, const FinderOptions& options = {}) {
   return finder_on<Stepper>(hill, std::exp(-0.5), hill_start, hill_goal, step, options);
@@ -52,18 +52,18 @@ TYPED_TEST_SUITE(PathFinderWith, Steppers, StepperName);
 
 TYPED_TEST(PathFinderWith, ReachesAGoalThatIsFreeInAStraightLine) {
   Hill hill;
-  auto finder = finder_on<TypeParam>(hill, 2.0, {-3.0, 1.0, 0.0}, {1.0, 4.0, 0.0}, 0.03);  // above the summit, 5 away
+  auto finder = finder_on<TypeParam>(hill, 2.0, {-3.0, 1.0, 0.0}, {1.0, 4.0, 0.0}, 0.03);  // above the summit, 5 from the goal
   finder.advance(1'000);
   EXPECT_EQ(finder.outcome(), Outcome::reached);
   EXPECT_EQ(finder.reason(), "");
-  EXPECT_EQ(finder.direct_steps(), 166u);  // and a hop of 0.02
+  EXPECT_EQ(finder.direct_steps(), 166u);  // plus a hop of 0.02
   EXPECT_EQ(finder.detour_steps(), 0u);
   EXPECT_NEAR(finder.statistics().length(), 5.0, 1e-13);
   EXPECT_EQ(finder.distance_left(), 0.0);
   EXPECT_EQ(finder.position(), hill.array({1.0, 4.0, 0.0}));
 }
 
-// Straight to the unit sphere, along it to where the goal comes in sight, and straight on.
+// Straight to the unit sphere, along it to the tangent through the goal, then straight to the goal.
 double greedy_length(const Point& start, const Point& goal) {
   const Point way = difference(goal, start);
   const double b = dot(start, way) / dot(way, way);
@@ -190,7 +190,7 @@ TYPED_TEST(PathFinderWith, HandedOnToAnotherItGoesOnWithTheSameBits) {
   auto whole = around_the_hill<TypeParam>(hill, 0.01);
   whole.advance(100'000);
   ASSERT_EQ(whole.outcome(), Outcome::reached);
-  // Before the hill, on it, and at the end.
+  // Before the hill, at the hill, and at the end.
   for (const std::uint64_t stop : {std::uint64_t{1}, whole.steps() / 2, whole.steps() / 2 + 1, whole.steps()}) {
     auto begun = around_the_hill<TypeParam>(hill, 0.01);
     begun.advance(stop);
@@ -209,7 +209,7 @@ TYPED_TEST(PathFinderWith, HandedOnToAnotherItGoesOnWithTheSameBits) {
   }
 }
 
-// While it makes no progress, of which it has to remember how long, and where it has given up.
+// Stops while the finder makes no progress (it must remember for how long), and after it has given up.
 TEST(PathFinder, HandedOnWhereItIsStuckItGivesUpAtTheSameStep) {
   Bowl bowl;
   const auto stuck = [&] { return finder_on<EscapeStepper>(bowl, 0.5, {0.1, 0.0, 0.0}, {3.0, 0.0, 0.0}, 0.01); };

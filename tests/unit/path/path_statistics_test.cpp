@@ -13,7 +13,7 @@
 namespace lanescape {
 namespace {
 
-// Three particles, and where they are after each displacement.
+// Three particles and their positions after each displacement.
 class Walk {
  public:
   Walk() : layout_({0, 0, 0}, 1), algebra_(kernel_table(choose_isa("auto"))), at_(layout_.dimension(), 0.0) {}
@@ -77,7 +77,7 @@ TEST(PathStatistics, HistogramsCountStepsAndNotTheHop) {
   walk.step(statistics, even);
   walk.step(statistics, {0.0, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
   walk.hop(statistics, even);
-  // n of 1, 625/337 = 1.85 and 3: up to 1, up to 2, up to 3.
+  // The values of n are 1, 625/337 = 1.85 and 3, in the bins up to 1, up to 2 and up to 3.
   EXPECT_EQ(statistics.participation_histogram(), (std::vector<std::uint64_t>{1, 1, 1}));
 }
 
@@ -87,7 +87,7 @@ TEST(PathStatistics, TheAlphaTwoOfAStepIsThatOfItsDisplacements) {
   walk.step(statistics, uneven);
   walk.step(statistics, {0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0});
   walk.step(statistics, {1.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0});
-  // 1.8/n - 1 with n of 625/337, 2 and 25/17: -0.03, -0.1 and 0.22, in bins of 0.2 from -1 on.
+  // 1.8/n - 1 for n = 625/337, 2 and 25/17 is -0.03, -0.1 and 0.22; the bins have width 0.2 and start at -1.
   std::vector<std::uint64_t> expected(PathStatistics::alpha2_bins, 0);
   expected[4] = 2;
   expected[6] = 1;

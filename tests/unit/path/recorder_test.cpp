@@ -11,7 +11,7 @@ namespace {
 
 AlignedArray at(double distance) { return AlignedArray(8, distance); }
 
-// Comes nearer from `from` to `to` in steps of 1/16.
+// Decreases the distance from `from` to `to` in steps of 1/16.
 void approach(PathRecorder& recorder, double from, double to) {
   for (double distance = from; distance >= to; distance -= 0.0625) recorder.keep_frame(at(distance), distance);
 }

@@ -14,7 +14,7 @@ namespace {
 
 using testing::refusal;
 
-// Records enough for a look at the monitor in the middle of each trajectory, and one at its end.
+// Enough records for one query of the monitor in the middle of each trajectory, and one at its end.
 constexpr std::uint64_t records = 2000;
 
 struct Soft {
@@ -28,7 +28,7 @@ struct Soft {
     options.between = 100;
     EndPointOptions& before = options.equilibration;
     before.time_step = 0.002;
-    before.distance = 1.0;  // is not looked at
+    before.distance = 1.0;  // not used
     before.melt_steps = before.cooling_steps = before.settle_steps = before.check_steps = 250;
     before.check_tolerance = 100.0;
   }
@@ -64,7 +64,7 @@ TYPED_TEST(DiffusionRunOf, InterruptedAndResumedEndsWithTheSameBits) {
   EXPECT_TRUE(whole.equilibrated);
   ASSERT_EQ(whole.diffusion.trajectories(), 2u);
   EXPECT_GT(whole.diffusion.vacf_diffusion(0).value, 0.0);
-  // After equilibration, in the first trajectory, in the second.
+  // After equilibration, during the first trajectory, during the second.
   for (const int looks : {1, 2, 4}) {
     const testing::TemporaryFolder folder;
     const DiffusionRunResult begun = run(system, {folder.path(), false}, testing::StoppingMonitor(looks));
@@ -100,7 +100,7 @@ TEST(DiffusionRun, RefusesWhatCannotBe) {
   EXPECT_EQ(refused([](Soft& s) { s.model = liquid_vapour(); }).rfind("diffusion of model ucg is not there yet", 0), 0u);
 }
 
-// [G] table 4.3, and 4.5 for two species.
+// [G] table 4.3, and table 4.5 for two species.
 TEST(DiffusionRun, HasTheParametersOfTheSource) {
   const DiffusionRunOptions one = source_diffusion_options(1, 0.10), two = source_diffusion_options(2, 0.50);
   EXPECT_EQ(one.window.interval, 5e-4);

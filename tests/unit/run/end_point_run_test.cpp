@@ -16,7 +16,7 @@ namespace {
 
 using testing::refusal;
 
-// Liquids of 32, by protocols of some thousand steps.
+// Liquids of 32 particles, with protocols of some thousand steps.
 struct Soft {
   PairModel model = kob_andersen();
   Configuration start = fcc_start(model, 32, 1.0, 1);
@@ -76,7 +76,7 @@ TYPED_TEST(EndPointRunOf, MakesPairsTheDistanceApart) {
   for (const ConfigurationPair& pair : result.pairs) {
     EXPECT_GE(pair.distance, protocol.options.distance);
     EXPECT_LT(pair.distance, 1.2 * protocol.options.distance);
-    EXPECT_NEAR(distance(pair), pair.distance, 1e-9);  // the centre of mass rests
+    EXPECT_NEAR(distance(pair), pair.distance, 1e-9);  // the centre of mass is at rest
     EXPECT_EQ(pair.start.species, protocol.start.species);
     EXPECT_EQ(pair.start.radii, protocol.start.radii);
   }

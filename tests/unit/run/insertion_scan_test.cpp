@@ -44,16 +44,16 @@ TEST(InsertionScan, HasARowForEachStateAndForEachCombination) {
     EXPECT_EQ(row.density, k < 4 ? 0.3 : 0.5);
     EXPECT_EQ(row.method, k / 2 % 2 == 0 ? InsertionMethod::usher : InsertionMethod::screened);
     EXPECT_EQ(row.tolerance, k % 2 == 0 ? 0.1 : 0.01);
-    EXPECT_EQ(row.target, result.costs[k < 4 ? 0 : 4].target);  // of the same configurations
+    EXPECT_EQ(row.target, result.costs[k < 4 ? 0 : 4].target);  // from the same configurations
     EXPECT_GE(row.evaluations, 1.0);
     EXPECT_EQ(row.failures, 0.0);
   }
-  EXPECT_GT(result.costs[1].evaluations, result.costs[0].evaluations);  // for the smaller tolerance
+  EXPECT_GT(result.costs[1].evaluations, result.costs[0].evaluations);  // the smaller tolerance takes more
 }
 
 TEST(InsertionScan, InterruptedAndResumedEndsWithTheSameBits) {
   const InsertionScanResult whole = run(small_scan());
-  // In the first state, of which nothing is kept, and in the second.
+  // During the first state, of which nothing is stored, and during the second.
   for (const int looks : {1, 3}) {
     const testing::TemporaryFolder folder;
     const InsertionScanResult begun = run(small_scan(), {folder.path(), false}, testing::StoppingMonitor(looks));

@@ -23,7 +23,7 @@ double squared_sum(const std::vector<double>& values) {
 TEST(FluidOnLattice, HasVelocitiesOfItsTemperature) {
   const FluidState state = fluid_on_lattice(kob_andersen(), 4000, 0.6, 1.5, 1);
   EXPECT_NEAR(static_cast<double>(state.configuration.size()) / state.configuration.box.volume(), 0.6, 1e-12);
-  // A mean of 12000 squares: its standard error is sqrt(2/12000) = 0.013 of it.
+  // A mean of 12000 squares: its relative standard error is sqrt(2/12000) = 0.013.
   EXPECT_NEAR(squared_sum(state.velocities) / 12'000.0, 1.5, 4.0 * 0.013 * 1.5);
 }
 

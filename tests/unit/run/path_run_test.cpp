@@ -17,7 +17,7 @@ namespace {
 
 using testing::refusal;
 
-// Two particles about a resting centre, `r` apart, before and after a turn by `degrees`.
+// Two particles with a resting centre, `r` apart, before and after a rotation by `degrees`.
 ConfigurationPair turned(double r_before, double r_after, double degrees) {
   const double angle = degrees * std::numbers::pi / 180.0;
   const auto around = [](double x, double y) {
@@ -26,7 +26,7 @@ ConfigurationPair turned(double r_before, double r_after, double degrees) {
   return {around(0.5 * r_before, 0.0), around(0.5 * r_after * std::cos(angle), 0.5 * r_after * std::sin(angle))};
 }
 
-// For Lennard-Jones particles the way straight across is forbidden, for hard ones too.
+// The straight path is forbidden, for Lennard-Jones particles and for hard spheres.
 ConfigurationPair soft_pair() { return turned(1.3, 1.25, 120.0); }
 ConfigurationPair hard_pair() {
   ConfigurationPair pair = turned(1.5, 1.4, 120.0);
@@ -40,7 +40,7 @@ std::vector<PathResult> search(const Model& model, const std::vector<Configurati
   return run_paths(model, pairs, options, choose_isa("auto"), checkpoint, monitor);
 }
 
-// A method with a model that it is for, and steps short enough for many looks at the monitor.
+// A method with a suitable model, and steps short enough for many queries of the monitor.
 struct Method {
   Model model;
   ConfigurationPair pair;
@@ -89,7 +89,7 @@ TEST_P(PathRunBy, LeadsFromOneEndToTheOther) {
   EXPECT_EQ(path.frames.front().positions, method.pair.start.positions);
   EXPECT_EQ(path.frames.back().positions, method.pair.finish.positions);
   EXPECT_EQ(path.frames.back().radii, method.pair.start.radii);
-  // The two move by opposite amounts.
+  // The two particles move by opposite vectors.
   for (std::size_t j = 0; j < 2; ++j) {
     EXPECT_NEAR(path.particle_displacements[j], path.distance / std::numbers::sqrt2, 1e-12);
     EXPECT_GT(path.particle_lengths[j], path.particle_displacements[j]);
@@ -100,7 +100,7 @@ TEST_P(PathRunBy, LeadsFromOneEndToTheOther) {
 TEST_P(PathRunBy, InterruptedAndResumedEndsWithTheSameBits) {
   const Method method(GetParam());
   const PathResult whole = method.result();
-  const bool long_enough = GetParam() != std::string("away");  // its few steps leave no time for a look
+  const bool long_enough = GetParam() != std::string("away");  // it has too few steps for a query of the monitor
   for (const int looks : {1, 3}) {
     const testing::TemporaryFolder folder;
     testing::StoppingMonitor monitor(looks);
@@ -110,7 +110,7 @@ TEST_P(PathRunBy, InterruptedAndResumedEndsWithTheSameBits) {
     EXPECT_EQ(begun.direct_steps + begun.detour_steps < whole.direct_steps + whole.detour_steps, long_enough);
     const PathResult resumed = method.result({folder.path(), true}), again = method.result({folder.path(), true});
     expect_same_bits(resumed, whole);
-    expect_same_bits(again, whole);  // nothing is left to do
+    expect_same_bits(again, whole);  // the run is already finished
     EXPECT_EQ(again.seconds, resumed.seconds);
   }
 }
@@ -159,7 +159,7 @@ TEST(PathRun, TheLandscapeEnergyIsThatOfTheHigherEndUnlessItIsGiven) {
   method.options.landscape_energy = 10.0;
   const PathResult path = method.result();
   EXPECT_EQ(path.landscape_energy, 10.0);
-  EXPECT_LT(path.length, Method("contour").result().length);  // more is allowed
+  EXPECT_LT(path.length, Method("contour").result().length);  // a higher landscape energy allows shorter paths
   method.options.landscape_energy = higher - 0.01;
   EXPECT_EQ(refusal([&] { method.result(); }).rfind("pair 1: an end point has energy -0.", 0), 0u);
 }

@@ -12,7 +12,7 @@
 namespace lanescape {
 namespace {
 
-// Counts to `goal`, one per chunk. Only even counts can be saved, and every fourth is due.
+// Counts to `goal`, one per chunk. Only even counts can be saved, and every fourth count is due for saving.
 class Counting final : public ResumableWork {
  public:
   explicit Counting(std::uint64_t goal) : goal_(goal) {}

@@ -26,7 +26,7 @@ SlabOptions small_slab() {
 TEST(SlabRun, DoesNotDependOnTheNumberOfThreads) {
   SilentMonitor monitor;
   SlabOptions options = small_slab();
-  options.equilibration_steps = options.sampling_steps = 20;  // two threads on one busy core take long
+  options.equilibration_steps = options.sampling_steps = 20;  // few steps, because two threads on one busy core are slow
   const SlabRunResult one = run_slab(liquid_vapour(), options, choose_isa("auto"), {}, monitor);
   options.threads = 2;
   const SlabRunResult two = run_slab(liquid_vapour(), options, choose_isa("auto"), {}, monitor);
@@ -51,7 +51,7 @@ TEST(SlabRun, RefusesWhatDoesNotFit) {
 TEST(SlabRun, EndsEarlyWithTheSamplesSoFarWhenAskedTo) {
   SlabOptions options = small_slab();
   options.sampling_steps = 200;
-  for (const auto& [looks, samples] : {std::pair{1, 0U}, {2, 5U}}) {  // a look every hundred steps, a sample every twenty
+  for (const auto& [looks, samples] : {std::pair{1, 0U}, {2, 5U}}) {  // a query every hundred steps, a sample every twenty
     testing::StoppingMonitor monitor(looks);
     const SlabRunResult begun = run_slab(liquid_vapour(), options, choose_isa("auto"), {}, monitor);
     EXPECT_TRUE(begun.interrupted);

@@ -12,7 +12,7 @@ namespace {
 
 using Range = AvoidanceStatistics::Range;
 
-// Overlaps as a list names them.
+// Overlaps in the format of a list.
 struct Overlaps {
   std::vector<std::int32_t> offsets, first, second;
 
@@ -26,7 +26,7 @@ struct Overlaps {
   ContactPairs pairs() const { return {offsets.data(), first.data(), second.data(), offsets.size()}; }
 };
 
-// 0 - 1 - 2 and 4 - 5 overlap at first, and 2 - 4 in a second trial.
+// 0 - 1 - 2 and 4 - 5 overlap first, and 2 - 4 overlap in a second trial.
 void one_step(AvoidanceStatistics& statistics) {
   statistics.begin_step(Overlaps{{0, 1}, {1, 2}, {4, 5}}.pairs());
   statistics.add_trial(Overlaps{{2, 4}}.pairs());
@@ -57,7 +57,7 @@ TEST(AvoidanceStatistics, AStepKnowsNothingOfTheOneBefore) {
   statistics.end_step(8);
   EXPECT_EQ(statistics.partners()[1], 12u);
   EXPECT_EQ(statistics.group_numbers()[4], 1u);
-  EXPECT_EQ(statistics.group_sizes(Range::some_groups), counts(109, 2, 4));  // from 4 groups on
+  EXPECT_EQ(statistics.group_sizes(Range::some_groups), counts(109, 2, 4));  // four or more groups
 }
 
 TEST(AvoidanceStatistics, BoundsAreThoseOfTheSourceAndInProportionElsewhere) {

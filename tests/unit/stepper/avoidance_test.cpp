@@ -16,7 +16,7 @@ namespace {
 
 constexpr Box box{{20.0, 20.0, 20.0}};
 
-// Unit spheres, with the centres of the two ends of their path one after the other.
+// Spheres of diameter 1 with the start and the goal of their path.
 class Spheres {
  public:
   Spheres(std::vector<double> start, const std::vector<double>& goal, const AvoidanceStepper::Options& options = {})
@@ -55,7 +55,7 @@ class Spheres {
 };
 
 TEST(AvoidanceStepper, GoesStraightWhereItMayToTheTouch) {
-  // The first comes to touch the second, in numbers that are exact.
+  // The first sphere touches the second; all numbers are exact.
   Spheres spheres({5.0, 5.0, 5.0, 6.5, 5.0, 5.0}, {5.75, 5.0, 5.0, 6.5, 5.0, 5.0}, {.direct_step = 0.5});
   EXPECT_EQ(spheres.step(), StepKind::direct);
   EXPECT_EQ(spheres.positions(), (std::vector<double>{5.5, 5.0, 5.0, 6.5, 5.0, 5.0}));
@@ -64,7 +64,7 @@ TEST(AvoidanceStepper, GoesStraightWhereItMayToTheTouch) {
 }
 
 TEST(AvoidanceStepper, MovesTheTwoThatWouldOverlapApartByItsStepAndNoOther) {
-  // The third goes away with the largest part of a direct step, and stands still in the avoidance step.
+  // The third sphere takes most of a direct step and does not move in the avoidance step.
   Spheres spheres({5.0, 5.0, 5.0, 6.0001, 5.0, 5.0, 9.0, 5.0, 5.0}, {6.0, 5.0, 5.0, 5.0001, 5.0, 5.0, 12.0, 5.0, 5.0},
                   {.direct_step = 0.01, .avoidance_step = 1e-3});
   ASSERT_EQ(spheres.step(), StepKind::detour);
@@ -75,8 +75,8 @@ TEST(AvoidanceStepper, MovesTheTwoThatWouldOverlapApartByItsStepAndNoOther) {
   EXPECT_EQ(spheres.stepper().statistics().moved()[2], 1u);
 }
 
-// In line 0 flies into 1, which gives way and so overlaps 2 at the first trial. The forces of both trials count alike, so that
-// those on 1 cancel and it stays.
+// In a line, 0 moves into 1; 1 gives way and overlaps 2 in the first trial. The forces of both trials have equal weight, so those
+// on 1 cancel and it does not move.
 Spheres three_in_line(std::uint64_t max_trials) {
   return {{5.0, 5.0, 5.0, 6.0, 5.0, 5.0, 7.0, 5.0, 5.0},
           {8.0, 5.0, 5.0, 6.0, 5.0, 5.0, 7.0, 5.0, 5.0},
@@ -99,7 +99,7 @@ TEST(AvoidanceStepper, SaysWhyThereIsNoStep) {
   EXPECT_EQ(spheres.stepper().failure(), "1 pairs still overlap after 1 trials of 0.03125");
 }
 
-// Two that change places past a third, not quite in line.
+// Two spheres exchange positions and must pass a third; the three are not quite in line.
 Spheres three_that_pass() { return {{4.0, 5.0, 5.0, 5.5, 5.2, 5.0, 7.0, 5.1, 5.3}, {7.0, 5.0, 5.0, 5.5, 5.2, 5.0, 4.0, 5.1, 5.3}}; }
 
 TEST(AvoidanceStepper, NeverAcceptsAnOverlap) {

@@ -21,7 +21,7 @@
 namespace lanescape {
 namespace {
 
-using Point = std::vector<double>;  // interleaved, as the reference has it
+using Point = std::vector<double>;  // interleaved, as in the reference
 
 Isa active_isa() { return choose_isa("auto"); }
 
@@ -42,12 +42,12 @@ struct Visit {
 };
 
 struct Walked {
-  std::string outcome;  // as the finder's
+  std::string outcome;  // as the finder reports it
   double length = 0.0;
   std::vector<Visit> visits;
 };
 
-// What the finder does with a stepper.
+// Does what the finder does with a stepper.
 class Walk {
  public:
   explicit Walk(const Case& problem, const AwayStepper::Options& options = {})
@@ -80,7 +80,7 @@ class Walk {
     }
   }
 
-  // Padding included.
+  // These arrays include padding.
   const AlignedArray& position() const { return position_; }
   const AlignedArray& goal() const { return goal_; }
   const ParticleLayout& layout() const { return layout_; }
@@ -105,7 +105,7 @@ double distance(const Point& a, const Point& b) {
 
 double gap(const Case& problem, const Point& position) { return reference::smallest_gap(position, problem.radii, problem.edges()); }
 
-// Unit spheres in a large box.
+// Spheres of diameter 1 in a large box.
 Case few(Point start, Point finish) {
   const std::size_t count = start.size() / 3;
   return {Box{{40.0, 40.0, 40.0}}, std::vector<int>(count, 0), std::vector<double>(count, 0.5), std::move(start),
@@ -120,7 +120,7 @@ Case two_that_swap(double degrees) {
   return few(ends(0.0), ends(degrees * std::numbers::pi / 180.0));
 }
 
-// A binary fluid before and after it has moved by `separation` in 3N space.
+// A binary fluid at two times between which it has moved by `separation` in 3N space.
 Case fluid(std::size_t particles, double packing_fraction, double separation, std::uint64_t seed) {
   const HardSphereModel model = hard_sphere_binary();
   const Configuration lattice = hard_sphere_start(model, particles, packing_fraction, Arrangement::random, seed);
@@ -139,7 +139,7 @@ Case fluid(std::size_t particles, double packing_fraction, double separation, st
   return made;
 }
 
-// Two neighbours in a crystal that change places. There is no room for it.
+// Two neighbours in a crystal that exchange positions. There is no room to do so.
 Case crystal() {
   const Configuration lattice = hard_sphere_start(hard_sphere(), 108, 0.69, Arrangement::random, 1);
   Case made{lattice.box, lattice.species, lattice.radii, lattice.positions, lattice.positions};
@@ -183,13 +183,13 @@ TEST(AwayStepper, AFreeWayIsOneDirectStepToExactlyTheGoal) {
 
 TEST(AwayStepper, TwoSpheresTakeTheStepsOfTheReference) {
   expect_the_steps_of_the_reference(two_that_swap(170.0), 5);
-  expect_the_steps_of_the_reference(two_that_swap(180.0), 3);  // head on, with the fixed perpendicular
+  expect_the_steps_of_the_reference(two_that_swap(180.0), 3);  // head on: the fixed perpendicular is used
   expect_the_steps_of_the_reference(few({0.0, 0.6, 0.0, -3.0, 0.0, 0.0}, {0.0, 0.6, 0.0, 3.0, 0.0, 0.0}), 3);
   expect_the_steps_of_the_reference(
       few({0.0, 0.6, 0.0, -3.0, 0.0, 0.0, 0.1, 1.61, 0.0}, {0.0, 0.6, 0.0, 3.0, 0.0, 0.0, 0.1, 1.61, 0.0}), 3);
 }
 
-// 0 flies into 1, which makes way sideways and takes along 2, side by side with it; 0 then advances beside the two.
+// 0 moves into 1. 1 moves sideways and pushes 2, which is next to it. 0 then advances past both.
 TEST(AwayStepper, ASphereInTheWayPushesTheOneBehindItAside) {
   const Case problem = few({-3.0, 0.0, 0.0, 0.0, 0.6, 0.0, 0.0, 1.6, 0.0}, {3.0, 0.0, 0.0, 0.0, 0.6, 0.0, 0.0, 1.6, 0.0});
   Walk walk(problem);
@@ -199,9 +199,9 @@ TEST(AwayStepper, ASphereInTheWayPushesTheOneBehindItAside) {
   EXPECT_NEAR(walked.visits[0].position[0], -0.8, 1e-12);  // 0.6, 0.8 and 1 are the sides of a triangle
   const Point& after = walked.visits[1].position;
   EXPECT_EQ(walked.visits[1].kind, StepKind::detour);
-  EXPECT_NEAR(after[4], 1.0, 1e-9);  // out of the way of 0
-  EXPECT_NEAR(after[7], 2.0, 1e-9);  // out of the way of 1
-  EXPECT_NEAR(after[0], 0.0, 1e-9);  // as far as 1
+  EXPECT_NEAR(after[4], 1.0, 1e-9);  // out of the path of 0
+  EXPECT_NEAR(after[7], 2.0, 1e-9);  // out of the path of 1
+  EXPECT_NEAR(after[0], 0.0, 1e-9);  // level with 1
   EXPECT_LE(-gap(problem, after), AwayStepper::slack);
   EXPECT_EQ(walk.stepper().monitored(), 3.0);
 }
@@ -215,8 +215,8 @@ TEST(AwayStepper, MixturesOfEightAndThirtyTwoSpheresTakeTheStepsOfTheReference) 
 }
 
 TEST(AwayStepper, ASphereBesideAnotherToTheSlackIsNotInItsWay) {
-  // In contact, 0 pressing against 1, and 1 about to pass 0 sideways, but for a tilt of its way towards 0 that rounding might have
-  // made. 0 is nearer to its goal: if both were in each other's way, it would make way, by the slack.
+  // The spheres are in contact, and 0 pushes against 1. 1 would pass 0 sideways, but its direction is tilted towards 0 as rounding
+  // could cause. 0 is closer to its goal: if both blocked each other, 0 would make way, by the slack.
   for (int k = 1; k <= 30; ++k) {
     const double c = std::cos(0.1 * k), s = std::sin(0.1 * k), out = 1.0 + 1e-15, tilt = 3e-11;
     const Point start{0.0, 0.0, 0.0, out * c, out * s, 0.0};
@@ -226,7 +226,7 @@ TEST(AwayStepper, ASphereBesideAnotherToTheSlackIsNotInItsWay) {
 }
 
 TEST(AwayStepper, AFlightLongerThanTheNearestImageHoldsMeetsEveryImage) {
-  // Sphere 0 goes through the other's periodic images five times, a whole box behind one another.
+  // Sphere 0 passes periodic images of the other sphere five times, one box apart.
   Case problem = few({0.0, 0.0, 0.0, 2.0, 0.1, 0.0}, {20.0, 0.0, 0.0, 2.0, 0.1, 0.0});
   problem.box = {{4.0, 9.0, 9.0}};
   expect_the_steps_of_the_reference(problem, 4);
@@ -266,7 +266,7 @@ TEST(AwayStepper, EveryAwayStepIsCountedByItsMoves) {
   for (const Visit& visit : walked.visits) away += visit.kind == StepKind::detour;
   for (std::size_t k = 0; k < walk.stepper().corrections().size(); ++k) {
     counted += walk.stepper().corrections()[k];
-    if (k >= 2) several += walk.stepper().corrections()[k];  // beyond the one that makes way and the one that advances
+    if (k >= 2) several += walk.stepper().corrections()[k];  // more than one sphere that makes way and one that advances
   }
   EXPECT_EQ(counted, away);
   EXPECT_GT(several, 0u);
@@ -327,7 +327,7 @@ TEST(AwayStepper, APathThatIsArchivedAndReadGoesOnWithTheSameBits) {
   const Walked all = whole.go();
   ASSERT_EQ(all.outcome, "reached");
   ASSERT_GT(all.visits.size(), 8u);
-  bool between = false;   // a flight and its away step
+  bool between = false;   // between a flight and its away step
   bool rounding = false;  // at contact
   for (const std::size_t cut : {1u, 2u, 3u, 4u, 5u, 7u}) {
     between = between || all.visits[cut - 1].kind == StepKind::direct;

@@ -14,7 +14,7 @@ using testing::Hill;
 using testing::OneParticle;
 using testing::Way;
 
-// A walk of `steps` accepted steps, which are looked at one by one.
+// A walk of `steps` accepted steps; calls `look` for each.
 template <class Look>
 Point walk(OneParticle& landscape, ContourStepper& stepper, Point from, const Point& goal, int steps, Look look) {
   AlignedArray next(landscape.dimension(), 0.0);
@@ -50,7 +50,7 @@ TEST(ContourStepper, GoesAroundAHillByStepsOfTheStatedLengthAndNeverAboveTheLand
   const Point end =
       walk(landscape, stepper, {-2.0, 0.1, 0.2}, {2.0, 0.1, 0.2}, 200, [&](StepKind kind, const Point& from, const Point& to) {
         ASSERT_LE(landscape.energy(landscape.array(to)), energy);
-        // Tangents lead out of the sphere, so that no step is corrected.
+        // Tangents lead outside the sphere, so no step needs a correction.
         ASSERT_NEAR(length(from, to), 0.01, 1e-13);
         if (kind == StepKind::direct) return;
         ++detours;
@@ -66,18 +66,18 @@ TEST(ContourStepper, StaysInABowlWithinOneCorrectionOfTheContour) {
   Bowl landscape;
   const double energy = 0.5, step = 0.01, correction = 1e-6;
   ContourStepper stepper(landscape, energy, {.direct_step = step, .correction = correction});
-  const Point goal{3.0, 3.0, 0.0};  // outside: the way there is along the boundary
+  const Point goal{3.0, 3.0, 0.0};  // outside: the path follows the boundary
   walk(landscape, stepper, {1.0, 0.0, 0.0}, goal, 50, [&](StepKind kind, const Point& from, const Point& to) {
     ASSERT_EQ(kind, StepKind::detour);
     const double v = landscape.energy(landscape.array(to));
     ASSERT_LE(v, energy);
     ASSERT_GT(v, energy - 1.001 * correction * OneParticle::norm(from));  // slope: r
     ASSERT_EQ(v, stepper.monitored());
-    // A tangent of length s leaves the sphere of radius 1 by s^2/2, to which the way back adds next to nothing.
+    // A tangent of length s ends s^2/2 outside the sphere of radius 1; the correction back adds almost nothing.
     ASSERT_NEAR(length(from, to), step, 1.2 * std::pow(0.5 * step * step, 2) / (2.0 * step));
     ASSERT_LT(length(to, goal), length(from, goal));
   });
-  EXPECT_EQ(stepper.corrections().back(), 50u);  // some 50 corrections each, more than have a bin
+  EXPECT_EQ(stepper.corrections().back(), 50u);  // about 50 corrections each, more than there are bins
 }
 
 TEST(ContourStepper, SaysWhyThereIsNoStep) {

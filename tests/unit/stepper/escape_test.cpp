@@ -24,7 +24,7 @@ TEST(EscapeStepper, GoesStraightWhereItMay) {
   EXPECT_EQ(stepper.monitored(), landscape.energy(next));
 }
 
-// In the bowl Newton's descent takes r to (r + 2 E/r)/2, as Heron's method for the square root does.
+// In the bowl Newton's descent maps r to (r + 2 E/r)/2, like Heron's method for the square root.
 TEST(EscapeStepper, DescendsFromTheForbiddenTrialAsNewtonDoes) {
   Bowl landscape;
   AlignedArray next(landscape.dimension(), 0.0);
@@ -59,7 +59,7 @@ TEST(EscapeStepper, NeverAcceptsMoreThanTheToleranceAboveTheLandscapeEnergy) {
   EXPECT_GE(at[0], 0.0);
 }
 
-// How many gradients a descent is given depends on how long the one before it was.
+// The number of gradients provided for a descent depends on the length of the previous one.
 TEST(EscapeStepper, HandedOnToAnotherItGoesOnWithTheSameEvaluations) {
   Bowl landscape;
   const EscapeStepper::Options options{.direct_step = 0.5, .tolerance = 1e-6};
@@ -85,7 +85,7 @@ TEST(EscapeStepper, SaysWhyThereIsNoStep) {
   EXPECT_FALSE(flat.step(Way(plateau, {1.0, 0.0, 0.0}, {0.0, 3.0, 0.0}).at(), next));
   EXPECT_EQ(flat.failure(), "the trial is forbidden and the potential is flat");
   Bowl bowl;
-  EscapeStepper below(bowl, -1.0, {.max_iterations = 7});  // below the lowest point
+  EscapeStepper below(bowl, -1.0, {.max_iterations = 7});  // below the minimum of V
   EXPECT_FALSE(below.step(Way(bowl, {1.0, 0.0, 0.0}, {0.0, 3.0, 0.0}).at(), next));
   EXPECT_EQ(below.failure(), "no allowed point after 7 iterations of the descent");
 }

@@ -31,7 +31,7 @@ PairCase case_named(const std::string& name) {
   throw std::invalid_argument("no case is named " + name);
 }
 
-// Through the interaction, results in the user's order.
+// Evaluates through the interaction; results are in the user's order.
 struct Result {
   PairInteraction::Evaluation sums;
   std::vector<double> gradient;
@@ -52,8 +52,8 @@ double energy(const PairModel& model, const Configuration& configuration) {
   return PairInteraction(model, configuration.box, layout, best_table()).energy(layout.to_slots(configuration.positions));
 }
 
-// How far the separations of particle i are from where the gradient jumps: an image at the cutoff or, under the minimum-image
-// rule, a separation of half a box.
+// Distance of the separations of particle i from the nearest jump of the gradient: an image at the cutoff or, under the
+// minimum-image rule, a separation of half a box.
 double distance_to_jump(const PairModel& model, const Configuration& configuration, std::size_t i) {
   double least = std::numeric_limits<double>::infinity();
   const auto& box = configuration.box.length;
@@ -106,7 +106,7 @@ TEST_P(LennardJonesGradient, IsTheDerivativeOfTheEnergy) {
         other.positions[k] += by;
         return energy(model, other);
       };
-      // Five points: exact to h^4, here 1e-9; the energies' own rounding over h is about 1e-7.
+      // Five-point difference: exact to h^4, here 1e-9; the rounding of the energies divided by h is about 1e-7.
       const double slope = (8.0 * (moved(h) - moved(-h)) - (moved(2.0 * h) - moved(-2.0 * h))) / (12.0 * h);
       EXPECT_NEAR(result.gradient[k], slope, 1e-7 * (10.0 + scale[k])) << "particle " << i << ", axis " << k % 3;
       ++compared;
@@ -183,7 +183,7 @@ TEST(ImageSearch, NeedsTheNearestImageOnlyUpToHalfTheShortestEdge) {
 }
 
 TEST(ImageSearch, NeedsOneMoreImageUpToHalfTheDiagonalOfTheSmallestFace) {
-  // 3-4-5: half the diagonal is exactly 2.5.
+  // A 3-4-5 triangle: half the diagonal is exactly 2.5.
   for (const Box& box : {Box{{3.0, 4.0, 10.0}}, Box{{10.0, 3.0, 4.0}}, Box{{4.0, 10.0, 3.0}}}) {
     EXPECT_EQ(image_search(box, 2.5, ImageRule::all), ImageSearch::two_nearest);
     EXPECT_EQ(image_search(box, std::nextafter(2.5, 3.0), ImageRule::all), ImageSearch::lattice);
@@ -200,7 +200,7 @@ TEST(ImageSearch, NeedsTheNearestImageOnlyUnderTheMinimumImageRule) {
   EXPECT_EQ(image_search(cube(1.0), 100.0, ImageRule::minimum), ImageSearch::nearest);
 }
 
-// The message of the Error(bad_input) that a call throws, or nothing.
+// The message of the Error(bad_input) that a call throws, or an empty string.
 template <class Call>
 std::string bad_input_of(Call call) {
   try {
@@ -226,7 +226,7 @@ TEST(CheckSeparations, LooksAcrossTheBoundaryAndAtUnwrappedPositions) {
 }
 
 TEST(CheckSeparations, MeasuresInTheSigmaOfThePair) {
-  // 0.26 is above 0.3 x 0.8 = 0.24 (unlike) and 0.3 x 0.88 = 0.264 is above it (two P).
+  // 0.26 exceeds 0.3 x 0.8 = 0.24 (unlike pair) but is below 0.3 x 0.88 = 0.264 (two P).
   const std::vector<double> positions = {1.0, 1.0, 1.0, 1.26, 1.0, 1.0};
   EXPECT_EQ(bad_input_of([&] { check_separations({cube(8.0), {0, 1}, positions}, kob_andersen()); }), "");
   EXPECT_NE(bad_input_of([&] { check_separations({cube(8.0), {1, 1}, positions}, kob_andersen()); }), "");
@@ -290,7 +290,7 @@ TEST(MixedPrecision, TakesAListAtAnySizeAndRefusesWhatHasNone) {
   EXPECT_THROW(made(minimum, PairSearch::automatic), Error);
 }
 
-// Separations are as good anywhere in a box of any size: coordinates are not kept in single precision.
+// Separations are equally accurate everywhere in a box of any size, because coordinates are not stored in single precision.
 TEST(MixedPrecision, LosesNothingInALargeBox) {
   const PairModel model = lennard_jones();
   for (const double length : {10.0, 1000.0, 60'000.0}) {

@@ -22,7 +22,7 @@ namespace {
 
 const kernels::KernelTable& best_table() { return kernel_table(available_isas().back()); }
 
-// Spheres of radius 1/2 in a row along x in a box of edge 10, all of one species: slots are particles.
+// Spheres of radius 1/2 in a row along x in a box of edge 10, all of one species: slot numbers are particle numbers.
 struct Row {
   Box box{{10.0, 10.0, 10.0}};
   std::vector<double> x;
@@ -73,7 +73,7 @@ TEST(HardSphereOverlap, PairsWithinFindsRoomForMoreThanItExpected) {
   EXPECT_EQ(row.spheres.pairs_within(Row(std::vector<double>(200, 2.0)).positions(), 0.0).size(), 200U * 199U / 2U);
 }
 
-// Mixed radii up to `largest`, species by turns, positions up to two boxes from home.
+// Mixed radii up to `largest`, alternating species, positions up to two boxes away.
 Configuration random_spheres(std::size_t n, const Box& box, double largest, std::uint64_t which) {
   const CounterRandom random(7, RandomStream::displacements);
   Configuration spheres{box, {}, {}, {}};
@@ -86,7 +86,8 @@ Configuration random_spheres(std::size_t n, const Box& box, double largest, std:
   return spheres;
 }
 
-// Spheres of diameter 1 on a simple cubic lattice of spacing 1: each touches six others, and rounding decides which overlap.
+// Spheres of diameter 1 on a simple cubic lattice of spacing 1: each touches six others, and rounding decides which of them
+// overlap.
 Configuration touching_spheres(std::size_t edge, double shift) {
   Configuration spheres{{{edge + 0.0, edge + 0.0, edge + 0.0}}, std::vector<int>(edge * edge * edge, 0), {}, {}};
   spheres.radii.assign(spheres.size(), 0.5);
@@ -172,23 +173,23 @@ TEST(HardSphereList, ForcesPushApartWithTheDepthOfTheOverlap) {
   list.add_contact_forces(kernels::ContactPotential::harmonic, force);
   EXPECT_EQ(force[0], -0.25);
   EXPECT_EQ(force[1], 0.25);
-  list.add_contact_forces(kernels::ContactPotential::linear, force);  // adds
+  list.add_contact_forces(kernels::ContactPotential::linear, force);  // adds to `force`
   EXPECT_EQ(force[0], -1.25);
 }
 
-// Two images of one pair can be in reach of a list whose skin does not fit the box.
+// Two images of one pair can be within reach of a list whose skin is too large for the box.
 TEST(HardSphereList, SeesTheOtherImageOfAPairInABoxOfTwiceTheDiameter) {
   Row row({0.0, 4.99}, 2.5);
   HardSphereList list(row.spheres, 1.0);
   row.x[1] = 5.0;
-  EXPECT_FALSE(list.any_overlap(row.positions()));  // it touches on either side
+  EXPECT_FALSE(list.any_overlap(row.positions()));  // it touches on both sides
   row.x[1] = 5.2;
   EXPECT_TRUE(list.any_overlap(row.positions()));
   row.x[1] = 4.8;
   EXPECT_TRUE(list.any_overlap(row.positions()));
 }
 
-// All that a path sees of the list: a path has the same bits with any search.
+// Compares everything that a path uses of the list: with these, a path has the same bits with any search.
 TEST(HardSphereList, HasTheSameContactsAndForcesToTheBitByCellsAndAllPairs) {
   const Configuration start = hard_sphere_start(hard_sphere_binary(), 2000, 0.49, Arrangement::random, 1);
   const ParticleLayout layout(start.species, 2);
@@ -230,7 +231,7 @@ TEST(CheckNoOverlap, TakesSpheresThatTouch) {
 }
 
 TEST(CheckNoOverlap, NamesTheDeepestPairInTheUsersOrderAndTheNumberOfPairs) {
-  // By species the second particle would come last.
+  // In order of species the second particle would be last.
   EXPECT_EQ(refusal({{{8.0, 8.0, 8.0}}, {0, 1, 0, 0}, {0, 0, 0, 3, 0, 0, 0.75, 0, 0, 3.5, 8.0, 0}, {0.5, 0.5, 0.5, 0.5}}),
             "particles 1 and 3 overlap by 0.5: spheres may touch but not overlap (2 such pairs)");
 }

@@ -62,7 +62,7 @@ TEST(SwitchingFunction, IsWithinItsStatedErrorOfTanh) {
     worst = std::max(worst, std::abs(w.value(r) - exact));
   }
   EXPECT_LT(worst, 2e-9);
-  EXPECT_GT(worst, 1e-11);  // it is a spline
+  EXPECT_GT(worst, 1e-11);  // the spline is not exact
   EXPECT_EQ(w.value(2.5), 0.0);
 }
 

@@ -23,7 +23,7 @@ using Potentials = StateMixtureVariant::Potentials;
 
 const kernels::KernelTable& table() { return kernel_table(available_isas().back()); }
 
-// The middle of the widest gap between two pair distances within [from, to]: a cutoff that no pair is near to.
+// The middle of the widest gap between two pair distances within [from, to]: a cutoff with no pair near it.
 double cutoff_in_gap(const Configuration& fluid, double from, double to) {
   std::vector<double> r{from, to};
   for (std::size_t i = 0; i < fluid.size(); ++i)
@@ -66,7 +66,7 @@ Evaluated evaluate(StateMixtureParts parts, const Configuration& c, std::size_t 
   return result;
 }
 
-// Forces and virial of an interaction against differences of its energy. `make` makes its parts.
+// Compares forces and virial of an interaction with differences of its energy. `make` creates its parts.
 template <class MakeParts>
 void expect_consistent(MakeParts make, const Configuration& c, std::size_t species, const std::string& name) {
   const Evaluated at = evaluate(make(), c, species);
@@ -110,7 +110,7 @@ TEST(StateMixture, TablesAreConsistentTooTheyEndSmoothly) {
   Configuration fluid = state_mixture_fluid(27, 2);
   fluid.wrap();
   const StateMixtureVariant variant{2, 2, Filter::asymmetric, Potentials::tables, 0.8};
-  // Knots are jumps of the third derivative: differences see them.
+  // At knots the third derivative jumps, which limits the accuracy of differences.
   const auto parts = [&] { return make_parts(state_mixture_model(variant)); };
   const Evaluated at = evaluate(parts(), fluid, 2);
   const std::vector<double> gradient = ParticleLayout(fluid.species, 2).to_user(at.gradient);
@@ -134,7 +134,7 @@ TEST(StateMixture, AnySwitchingFunctionWillDo) {
     StateMixtureParts made = make_parts(state_mixture_model({2, 3, Filter::every, Potentials::lennard_jones, 0.3}, cutoff));
     std::vector<SwitchingFunction> own{{lucy, 1.9}, {bell, 2.0}};
     made.order_parameter = std::make_unique<LocalDensity>(std::move(own), std::vector<double>{1.0, 0.5, 0.0, 2.0});
-    // These densities are of few neighbours.
+    // These densities come from few neighbours.
     made.response =
         std::make_unique<TanhCascade>(std::vector<std::vector<TanhCascade::Step>>{{{3.0, 1.0}, {1.0, 0.5}}, {{4.0, 2.0}}});
     return made;
@@ -176,7 +176,7 @@ TEST(StateMixture, OneStateIsPlainLennardJonesToTwoUnitsInTheLastPlace) {
 }
 
 TEST(StateMixture, FixedProbabilitiesAreAMixture) {
-  // Two species of one state each, given as two states of which each species is in one only.
+  // Two species with one state each, represented by two states; each species is always in its own state.
   const Configuration fluid = state_mixture_fluid(125, 2);
   const StateMixtureModel model = state_mixture_model({1, 2});
   const StatePairs order{2, 2};
@@ -219,7 +219,7 @@ TEST(StateMixture, ResultsDoNotDependOnTheNumberOfThreads) {
   }
 }
 
-// An evaluation remembers nothing but where its list was made.
+// An evaluation keeps nothing except the positions at which its list was built.
 TEST(StateMixture, ResultsDoNotDependOnWhatWasEvaluatedBefore) {
   const Configuration fluid = state_mixture_fluid(216, 1);
   const StateMixtureModel model = state_mixture_model({1, 2, Filter::every, Potentials::lennard_jones, 0.5});
@@ -269,7 +269,7 @@ TEST(StateMixture, BondedAnglesFollowTheStateInTheMiddle) {
     return made;
   };
   expect_consistent(parts, fluid, 1, "angles");
-  // The angle alone, at fixed probabilities, against its formula.
+  // The angle alone, at fixed probabilities, compared with its formula.
   Configuration three{{{20.0, 20.0, 20.0}}, {0, 0, 0}, {1.0, 1.0, 1.0, 2.0, 1.0, 1.0, 2.0, 2.0, 1.0}};
   StateMixtureParts alone;
   alone.response = std::make_unique<FixedProbabilities>(std::vector<std::vector<double>>{{0.25, 0.75}});
@@ -281,7 +281,7 @@ TEST(StateMixture, BondedAnglesFollowTheStateInTheMiddle) {
 }
 
 TEST(StateMixture, OneBodyEnergyIsTallied) {
-  // Far apart: every site is in the last state.
+  // Sites far apart: each is mostly in the last state.
   const Configuration two{{{20.0, 20.0, 20.0}}, {0, 0}, {1.0, 1.0, 1.0, 9.0, 9.0, 9.0}};
   StateMixtureModel model = state_mixture_model({1, 2, Filter::every, Potentials::lennard_jones, 0.9});
   model.states[0].steps[0] = {4.0, 5.0};
