@@ -1,4 +1,4 @@
-"""What tests of the program share: they see it as its users' scripts do, by exit statuses, streams, files and JSON keys.
+"""Shared by the tests of the program, which see it as a user's script does: exit status, streams, files and JSON keys.
 
 Usage of every test file here: <subject>_test.py PROGRAM DATA_DIR [unittest arguments]
 """
@@ -23,7 +23,7 @@ EXAMPLES = Path(__file__).resolve().parents[2] / "docs" / "examples"
 SUBCOMMANDS = ("info", "energy", "overlap", "endpoints", "path", "diffusion", "insert", "slab", "verify")
 COMMON_OPTIONS = ("--help", "--seed", "--threads", "--isa", "--quiet", "--config", "--out", "--resume")
 
-# A liquid small and short enough for a test. Eight particles and the nearest image make 10^6 steps in half a second.
+# A liquid small and short enough for a test. Eight particles with the nearest image take 10^6 steps in half a second.
 PROTOCOL = ("--melt-steps", "500", "--cooling-steps", "500", "--check-steps", "500", "--check-tolerance", "50",
             "--settle-steps", "200", "--between-steps", "100")
 ARGON = ("--model", "lennard-jones", "--images", "minimum")
@@ -31,7 +31,7 @@ WARM = ("--temperature", "2", "--distance", "1") + PROTOCOL
 TINY = ("--particles", "8", "--density", "0.8") + WARM
 FLUID = ("--particles", "32", "--density", "0.8", "--temperature", "1", "--distance", "5") + PROTOCOL
 
-# Insertion: a scan of its cost, and growth of a density, both short.
+# Insertion: a short scan of its cost, and a short densification.
 TAIL = ("--model", "lennard-jones", "--truncation", "tail")
 SCAN = ("insert", "--scan", *TAIL, "--states", "0.4:2.5,0.5:2", "--particles", "64", "--configurations", "2", "--count", "20",
         "--methods", "usher,screened,descent", "--tolerances", "0.2,0.01", "--equilibration-steps", "200", "--between-steps", "100",
@@ -46,7 +46,7 @@ SPHERE_HEADER = 'Lattice="4 0 0 0 4 0 0 0 4" Properties=species:S:1:pos:R:3:radi
 
 
 def with_options(arguments, *changes):
-    """The arguments with some options changed or added: the program takes each option once."""
+    """The arguments with some options changed or added; the program accepts each option only once."""
     arguments = list(arguments)
     for option, value in zip(changes[::2], changes[1::2]):
         if option in arguments:
@@ -77,7 +77,7 @@ def lanescape(*arguments, cwd=None, timeout=120, **variables):
 
 
 def one_object(text):
-    """The JSON object that the text is, and nothing besides it."""
+    """The JSON object in the text, which must contain nothing else."""
     def refuse_duplicates(pairs):
         keys = [key for key, _ in pairs]
         assert len(keys) == len(set(keys)), keys
@@ -88,14 +88,14 @@ def one_object(text):
 
 
 def without_seconds(result):
-    """All that one seed decides: no times, and no folder in the names of files."""
+    """The part of a result that depends only on the seed: without times and without folders in file names."""
     if isinstance(result, dict):
         return {k: Path(v).name if k == "file" and v else without_seconds(v) for k, v in result.items() if k != "seconds"}
     return [without_seconds(v) for v in result] if isinstance(result, list) else result
 
 
 def contents(folder):
-    """Every file of a run by name, byte for byte, apart from times and binary checkpoints."""
+    """The content of every file of a run by name, without times and binary checkpoints."""
     files = {}
     for file in sorted(Path(folder).iterdir()):
         if file.name == "result.json":
@@ -125,7 +125,7 @@ class ProgramTest(unittest.TestCase):
         return one_object(run.stdout)
 
     def refused(self, *arguments, says=(), **options):
-        """Exit 2 with nothing on stdout and one line on stderr that has all of `says`."""
+        """Exit status 2, nothing on stdout and one line on stderr that contains all of `says`."""
         run = lanescape(*arguments, **options)
         self.assertEqual((run.returncode, run.stdout), (2, ""), f"{arguments}: {run.stderr}")
         self.assertRegex(run.stderr, r"\Alanescape: [^\n\r]+\n\Z")
@@ -134,7 +134,7 @@ class ProgramTest(unittest.TestCase):
         return run.stderr
 
     def refused_cleanly(self, *arguments, **options):
-        """Refused, and neither a new folder for --out, with its parents, nor an empty one is touched."""
+        """Refused; a new folder for --out and its parents are not created, and an empty one is not changed."""
         self.refused(*arguments, **options)
         before = sorted(self.folder.rglob("*"))
         self.refused(*arguments, "--out", self.folder / "new" / "nested", **options)
@@ -165,7 +165,7 @@ class InterruptionTest(ProgramTest):
         self.fail(f"{file} never came")
 
     def interrupt(self, *arguments, out, after="run.toml", with_signal=signal.SIGTERM, seconds=0.1):
-        """Interrupts a run that many seconds after it has made a file of its folder."""
+        """Interrupts a run the given number of seconds after it has created a file in its folder."""
         process = self.start(*arguments, out=out)
         self.wait_for(process, out / after)
         time.sleep(seconds)

@@ -88,7 +88,7 @@ class HardSpheres(InterruptionTest):
         self.assert_resumes_to(out, whole, "path")
 
     def assert_resumes_from_an_interruption(self, *arguments, after):
-        """Interrupted that many seconds after its folder is there, a run goes on to the bits of one left alone."""
+        """A run interrupted the given number of seconds after its folder exists resumes to the bits of an uninterrupted one."""
         whole, out = self.folder / "whole", self.folder / "cut"
         self.done(*arguments, "--out", whole)
         result = self.interrupt(*arguments, out=out, seconds=after)

@@ -1,4 +1,4 @@
-"""Insertion into a fluid, scans of its cost and growth of a density."""
+"""Insertion into a fluid, scans of its cost, and densification."""
 
 import csv
 import unittest

@@ -50,7 +50,7 @@ class Resuming(InterruptionTest):
             arguments = ("path", *ARGON, "--pair", *pairs, "--method", method, "--step", "1e-5", "--threads", "1")
             whole = self.folder / f"whole-{method}"
             self.done(*arguments, "--out", whole)
-            # The files may change or go once the run has begun: it keeps copies.
+            # The files may change or disappear after the start of the run, which keeps copies.
             copies = [(Path(p), Path(p).read_bytes()) for p in pairs]
             runs = {which: self.folder / f"{method}-{which.name}" for which in (signal.SIGTERM, signal.SIGINT, signal.SIGKILL)}
             for which, out in runs.items():

@@ -14,7 +14,7 @@ class States(ProgramTest):
         return self.file(f"{symbol}.extxyz", (DATA / "ar_melted_107.extxyz").read_text().replace("\nAr ", f"\n{symbol} "))
 
     def test_both_examples_agree_with_the_reference(self):
-        # The reference takes tanh, the kernels a spline of it.
+        # The reference uses tanh, the kernels use a spline of it.
         for model, symbol in (("liquid_vapour", "Ar"), ("methanol", "C")):
             with self.subTest(model):
                 arguments = ("energy", self.melt(symbol), "--model", "ucg", "--model-file", EXAMPLES / f"{model}.toml", "--forces", "--states")

@@ -1,4 +1,4 @@
-"""An option that has no effect in a run is refused, with its name, the reason and what it is for."""
+"""An option that has no effect in a run is refused, with its name, the reason and the runs that use it."""
 
 import unittest
 
@@ -14,7 +14,7 @@ HARD_ONLY = ("--packing-fraction", "--equilibration-collisions")
 
 class UnusedOptions(ProgramTest):
     def all_refused(self, run, options, *reason):
-        """Each of the options, `name` or `name=value`, is refused in the run for the reason."""
+        """The run refuses each of the options, `name` or `name=value`, and gives the reason."""
         for option in options:
             name, _, value = option.partition("=")
             with self.subTest(option):
@@ -94,7 +94,7 @@ class UnusedOptions(ProgramTest):
         self.all_refused(("energy", FLUID, "--model-file", model), ("--model=lennard-jones",), "with --model-file")
 
     def test_a_run_file_may_hold_defaults_of_options_without_an_effect_but_no_other_values(self):
-        """Run files of earlier versions hold all options."""
+        """Run files of earlier versions contain all options."""
         text = f'file = "{FLUID}"\nmodel = "lennard-jones"\nrate = 0.005\nrows = 40\nstates = "0.4:2.5,0.5:2.5,0.6:2.5,0.7:2.5,0.8:2.5"\n'
         plain = without_seconds(self.done("insert", FLUID, *LENNARD_JONES))
         self.assertEqual(without_seconds(self.done("insert", "--config", self.file("run.toml", text))), plain)

@@ -26,7 +26,7 @@ check_host() {
 }
 
 cmake --install "$build" --prefix "$work/first" >"$work/install.log" || { cat "$work/install.log"; fail "cmake --install"; }
-mv "$work/first" "$work/prefix"  # nothing may remember where it was installed
+mv "$work/first" "$work/prefix"  # no file may contain the original prefix
 prefix=$work/prefix
 
 cmake -S "$host" -B "$work/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_CXX_FLAGS="$flags" \

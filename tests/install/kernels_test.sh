@@ -1,6 +1,6 @@
 #!/bin/sh
-# Installs the component `kernels` of a finished build and links tests/install/kernels against it. Without -fopenmp, fmt or HDF5: the
-# kernels need nothing but the standard library.
+# Installs the component `kernels` of a finished build and links tests/install/kernels against it, without -fopenmp, fmt or HDF5:
+# the kernels need only the standard library.
 #
 # Usage: kernels_test.sh BUILD_DIR SOURCE_DIR
 set -eu
@@ -19,7 +19,7 @@ cmake -S "$host" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_CXX
 cmake --build "$work/build" >"$work/build.log" 2>&1 || { cat "$work/build.log"; fail "lanescape::kernels"; }
 [ "$("$work/build/kernel_host")" = kernels ] || fail "the host program fails: $("$work/build/kernel_host")"
 
-# The preset `kernels` configures where these packages are not to be found.
+# The preset `kernels` must configure even if these packages are missing.
 cmake -S "$2" -B "$work/only" -G "${CMAKE_GENERATOR:-Ninja}" -DCMAKE_CXX_COMPILER="$cxx" -DLANESCAPE_KERNELS_ONLY=ON -DLANESCAPE_ISAS=native \
   -DCMAKE_DISABLE_FIND_PACKAGE_HDF5=ON -DCMAKE_DISABLE_FIND_PACKAGE_tomlplusplus=ON -DCMAKE_DISABLE_FIND_PACKAGE_CLI11=ON \
   -DCMAKE_DISABLE_FIND_PACKAGE_nlohmann_json=ON >"$work/only.log" 2>&1 || { cat "$work/only.log"; fail "LANESCAPE_KERNELS_ONLY"; }

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""tools/check_instructions.py with a valgrind that counts what it is told to: what passes, what fails and what is refused."""
+"""tools/check_instructions.py with a fake valgrind that reports given counts: what passes, what fails and what is refused."""
 
 import json
 import os
@@ -20,7 +20,7 @@ else:
     assert sys.argv[1] == "--compiler"
     print("GNU 12.2.0")
 """
-# A start of 5000 instructions, and then what counts.json says for each round.
+# 5000 instructions for the start of the program, plus the count in counts.json per round.
 VALGRIND = """#!{python}
 import json, pathlib, sys
 if sys.argv[1] == "--version":

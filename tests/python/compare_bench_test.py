@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""tools/compare_bench.py on made-up files: its verdicts, its exit status, and how it refuses."""
+"""tools/compare_bench.py on made-up files: its verdicts, its exit status and its refusals."""
 
 import json
 import math
@@ -39,7 +39,7 @@ class CompareBench(unittest.TestCase):
                               check=False)
 
     def compare(self, new, *arguments):
-        """Exit status and the comparison, of the table's run too."""
+        """Exit status and comparison; the run that prints a table must agree."""
         self.write(self.new, new)
         run, table = self.run_script("--json", *arguments), self.run_script(*arguments)
         self.assertEqual((run.stderr, table.stderr), ("", ""))

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""tools/equation_of_state.py against values published with the equations, Monte Carlo, the potential itself and thermodynamics."""
+"""Compares tools/equation_of_state.py with values published with the equations, Monte Carlo, the potential and thermodynamics."""
 
 import json
 import math
@@ -44,7 +44,7 @@ class PublishedValues(unittest.TestCase):
         self.assertAlmostEqual(ALL["johnson"].a_r(0.8, 1e-9) / 0.8 / 1e-9, -7.821026827, delta=1e-6)
 
     def test_kolafa_nezbeda_has_the_values_of_the_program_of_its_authors(self):
-        # Its constants are in single precision, which leaves 1e-6.
+        # Its constants are in single precision, which limits agreement to 1e-6.
         for rho, energy, pressure in ((0.2, -1.5371511277, 0.1214793681), (0.4, -2.8060167251, 0.1125333476)):
             self.assertAlmostEqual(ALL["kolafa-nezbeda"].e_ex(1.3, rho), energy, delta=1e-6)
             self.assertAlmostEqual(ALL["kolafa-nezbeda"].pressure(1.3, rho), pressure, delta=1e-6)
@@ -63,7 +63,7 @@ class PublishedValues(unittest.TestCase):
                 self.assertEqual(f"{found:.{len(expected.split('.')[1])}f}", expected)
 
     def test_thol_coexists_at_its_published_densities_and_vapour_pressure(self):
-        # Its ancillary equations for p_c = 0.13006, which reproduce the equation to about 1e-3.
+        # Its ancillary equations for p_c = 0.13006 reproduce the equation to about 1e-3.
         for t in (0.8, 1.0, 1.2):
             x, eos = 1.0 - t / 1.32, ALL["thol"]
             p = 0.13006 * math.exp(1.32 / t * (-5.4 * x + 0.44704 * x**1.5 - 1.853 * x**4.7 + 0.1989 * x**2.5 - 1.125 * x**21.4))
@@ -76,10 +76,10 @@ class PublishedValues(unittest.TestCase):
 
 
 class MonteCarlo(unittest.TestCase):
-    # Largest deviations allowed: energy and pressure of vapour, relative; energy and pressure of liquid. Means of the simulations have
-    # errors of about 5e-4 in the liquid's energy, and a vapour of N particles in a periodic box lacks 1/N of its pairs, 0.2 % of 500; the
-    # rest is the equations'. Found are 0.7 %, 0.05 %, 0.016, 0.013; 0.4 %, 0.04 %, 0.0016, 0.018; 0.4 %, 0.03 %, 0.0020, 0.0039. Johnson's
-    # liquid is within 0.0034 at T = 0.9; below, its heat capacity goes astray.
+    # Largest deviations allowed: relative energy and pressure of the vapour; energy and pressure of the liquid. The simulation
+    # means have errors of about 5e-4 in the liquid's energy. A vapour of N particles in a periodic box lacks 1/N of its pairs,
+    # 0.2 % for 500. The rest comes from the equations. Found: 0.7 %, 0.05 %, 0.016, 0.013; 0.4 %, 0.04 %, 0.0016, 0.018; 0.4 %,
+    # 0.03 %, 0.0020, 0.0039. Johnson's liquid is within 0.0034 at T = 0.9; at lower T its heat capacity is wrong.
     ALLOWED = {"johnson": (8e-3, 1e-3, 0.018, 0.015), "kolafa-nezbeda": (5e-3, 1e-3, 0.0025, 0.02), "thol": (5e-3, 1e-3, 0.0025, 0.005)}
 
     def test_energies_and_pressures_are_those_of_simulations(self):
@@ -96,7 +96,7 @@ class MonteCarlo(unittest.TestCase):
 
 class Thermodynamics(unittest.TestCase):
     def assert_close(self, found, expected, scale, name):
-        """To what differences leave: Johnson's terms cancel from 1e4, of which 1e-12 is rounding, over steps of 2e-4."""
+        """Tolerance of finite differences: Johnson's terms of 1e4 cancel, which leaves a rounding of 1e-12, over steps of 2e-4."""
         self.assertLess(abs(found - expected), 3e-8 * max(1.0, abs(scale)), name)
 
     def test_the_second_virial_coefficient_is_that_of_the_potential(self):
@@ -152,7 +152,7 @@ class ConstantEnergy(unittest.TestCase):
         np.testing.assert_allclose(self.temperatures("johnson"), (2.82, 3.10, 3.30, 3.41), atol=5e-3)
 
     def test_kolafa_nezbeda_and_thol_agree_on_a_little_more(self):
-        # To 0.001 between them, and 0.026 above Johnson at density 0.8, whose energy rises by so much less from 0.4 on.
+        # They agree to 0.001 and are 0.026 above Johnson at density 0.8, whose energy rises correspondingly less from 0.4 on.
         first, second = self.temperatures("kolafa-nezbeda"), self.temperatures("thol")
         np.testing.assert_allclose(first, second, atol=1e-3)
         np.testing.assert_allclose(second, (2.826, 3.106, 3.316, 3.433), atol=1e-3)
@@ -180,7 +180,7 @@ class ConstantEnergy(unittest.TestCase):
             constant_energy_process(ALL["thol"], 0.2, 1.12, (0.3,))  # in the binodal, where c_v is negative
 
     def test_the_end_does_not_depend_on_the_densities_between(self):
-        # From 0.8 straight to 0.6 Newton's method would lose this branch, which is curved.
+        # In one step from 0.8 to 0.6 Newton's method would leave this branch, which is curved.
         eos = ALL["kolafa-nezbeda"]
         ends = [constant_energy_process(eos, 0.8, 0.7, densities)["temperature"][-1] for densities in ((0.6,), np.linspace(0.79, 0.6, 39))]
         self.assertAlmostEqual(ends[0], ends[1], delta=1e-12)

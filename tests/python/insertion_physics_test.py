@@ -1,4 +1,4 @@
-"""What insertion costs and what it does to a fluid, held against figures measured beforehand and against equations of state.
+"""Compares the cost of insertion and its effect on a fluid with known figures and with equations of state.
 
 Usage: insertion_physics_test.py PROGRAM [unittest arguments]
 """
@@ -24,7 +24,7 @@ def insert(*arguments):
 
 class Cost(unittest.TestCase):
     # Mean force evaluations per insertion by direct USHER at the mean excess energy with r_c = 3 and long-range corrections,
-    # n_max = 200: an independent program's.
+    # n_max = 200, from an independent program.
     KNOWN = {(0.4, 2.5): 7.5, (0.5, 2.5): 9.9, (0.6, 3.0): 12.5, (0.7, 3.4): 21, (0.8, 1.0): 83, (0.8, 1.35): 73, (0.8, 2.0): 66,
              (0.8, 2.5): 55, (0.8, 3.0): 47, (0.8, 4.0): 41}
 
@@ -58,7 +58,7 @@ class Cost(unittest.TestCase):
         for row in self.run_["states"]:
             at = row["measured_temperature"], row["density"]
             with self.subTest(at):
-                # So soon after temperatures have been put right, energies have not quite followed.
+                # Soon after a rescaling of temperatures, energies have not fully relaxed.
                 self.assertAlmostEqual(row["excess_energy"], thol.e_ex(*at), delta=0.05)
                 self.assertAlmostEqual(row["pressure"], thol.pressure(*at), delta=0.05 * abs(thol.pressure(*at)) + 0.1)
                 # Few probes find room in the densest fluids.
@@ -74,7 +74,7 @@ class Cost(unittest.TestCase):
 
 class Growth(unittest.TestCase):
     def test_at_constant_energy_temperature_and_pressure_follow_the_equation_of_state(self):
-        # Velocities drawn at random leave the energy per particle uncertain by about sqrt(1.5) T / sqrt(N) = 0.1 at the end.
+        # Random velocities make the energy per particle uncertain by about sqrt(1.5) T / sqrt(N) = 0.1 at the end.
         run = insert("--densify", 0.8, "--density", 0.4, "--temperature", 2.5, "--particles", 1500, "--equilibration-steps", 2000, "--rows", 20, "--rate", 0.02)
         rows = run["densification"]
         thol = equation_of_state.load("thol")
@@ -83,7 +83,7 @@ class Growth(unittest.TestCase):
         for row in rows:
             with self.subTest(row["density"]):
                 self.assertLess(abs(row["drift"]), 0.01)
-                # At its energy, whatever that has become.
+                # The temperature of the equation of state at the actual energy.
                 temperature = self.temperature_at(thol, row["density"], row["energy"])
                 self.assertAlmostEqual(row["temperature"], temperature, delta=0.02 * temperature)
                 self.assertAlmostEqual(row["pressure"], thol.pressure(temperature, row["density"]), delta=0.03 * row["pressure"] + 0.05)

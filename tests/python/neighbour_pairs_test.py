@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Neighbour pairs of the facade against ASE's neighbor_list: tests/python/neighbour_pairs_test.py NEIGHBOUR_PAIRS_DUMP"""
+"""Compares the facade's neighbour pairs with ASE's neighbor_list: tests/python/neighbour_pairs_test.py NEIGHBOUR_PAIRS_DUMP"""
 
 import subprocess
 import sys
@@ -72,7 +72,7 @@ class NeighbourPairs(unittest.TestCase):
         self.assert_same(fcc((5, 5, 5), rattle=0.15), 1.5, 2.5)
 
     def test_a_crystal_between_its_shells(self):
-        # At the shells themselves equal distances differ by their last digits.
+        # Exactly at a shell, equal distances differ in their last digits.
         self.assert_same(fcc((3, 3, 3)), *(1.6 * np.sqrt(0.5 * (shell + 0.5)) for shell in range(1, 6)))
 
     def test_the_last_digit_of_the_cutoff(self):

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""bench/peers/lammps.py with made-up programs for LAMMPS, mpirun, lanescape and bench_lists; and with the real LAMMPS where there is
-one, for the energies: tests/python/peers_test.py [LANESCAPE]"""
+"""bench/peers/lammps.py with fake programs for LAMMPS, mpirun, lanescape and bench_lists; and, for the energies, with the real
+LAMMPS if it is installed: tests/python/peers_test.py [LANESCAPE]"""
 
 import json
 import os
@@ -20,7 +20,7 @@ sys.path[:0] = [str(ROOT / "bench" / "peers"), str(ROOT / "tools")]
 
 from systems import LIQUIDS, lattice, lattice_order, read_extended_xyz, wrapped, write_extended_xyz  # noqa: E402
 
-# Answers scripts as LAMMPS does: 50 ns per particle and step in pairs, 80 ns in all; one process is twice as slow as two.
+# Answers scripts like LAMMPS: 50 ns per particle and step in pairs, 80 ns in total; one process is twice as slow as two.
 FAKE_LAMMPS = """#!/usr/bin/python3
 import os, random, re, sys
 if sys.argv[1] == "-h":

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""tools/plot_bench.py on made-up results: the figures that it writes, what they show, and its refusals."""
+"""tools/plot_bench.py on made-up results: the figures that it writes, their content, and its refusals."""
 
 import json
 import math

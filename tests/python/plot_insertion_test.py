@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""tools/plot.py on small made-up folders of insertion: the figures that it writes, what they show, and its refusals."""
+"""tools/plot.py on small made-up folders of insertion runs: the figures that it writes, their content, and its refusals."""
 
 import json
 import sys

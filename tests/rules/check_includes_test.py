@@ -1,4 +1,4 @@
-"""tools/check_includes.py finds what it is for, and nothing in this tree."""
+"""tools/check_includes.py finds forbidden includes, and finds none in this tree."""
 
 import pathlib
 import subprocess
@@ -9,7 +9,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "tools" / "check_includes.py"
 
-# (file, its one include, whether that is allowed)
+# (file, its only include, whether it is allowed)
 CASES = [
     ("kernels/a.cpp", "<cmath>", True),
     ("kernels/a.cpp", '"views/pair.hpp"', True),

@@ -1,4 +1,4 @@
-"""tools/check_symbols.py passes objects that show their table only, and names whatever else leaks out of others."""
+"""tools/check_symbols.py accepts objects that export only their table, and names any other exported symbol."""
 
 import os
 import pathlib

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every label in brackets, section of PHYSICS and document that code and documents cite is there."""
+"""Every label in brackets, section of PHYSICS and document that code and documents cite exists."""
 
 import pathlib
 import re
@@ -10,7 +10,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDERS = ("kernels", "reference", "src", "tools", "bench", "tests", "docs", "README.md", "CHANGELOG.md")
 SOURCES = {".cpp", ".hpp", ".h", ".py", ".md", ".smk", ".sh"}
 LABEL = re.compile(r"(?<![\w\])\"'])\[([A-Z]{1,3})\](?![\[(:=])")
-# A comment, or prose: in code, [N] may be an index.
+# Comments and prose only: in code, [N] may be an index.
 COMMENT = re.compile(r"(?://|#|\"\"\"|^\s*\*)(.*)")
 SECTION = re.compile(r"PHYSICS(?:\.md)?,? (\d+(?:\.\d+)?)")
 DOCUMENT = re.compile(r"docs/([A-Z]+\.md)")

@@ -1,4 +1,4 @@
-"""What the documents show of the programs in docs/snippets stands there, word for word."""
+"""Code in the documents is copied exactly from the programs in docs/snippets."""
 
 import pathlib
 import re

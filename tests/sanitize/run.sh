@@ -1,5 +1,5 @@
 #!/bin/sh
-# run.sh PRESET: builds the preset and runs the fast tests in it; 77 where its compiler is not installed.
+# run.sh PRESET: builds the preset and runs its fast tests; exit status 77 if its compiler is not installed.
 set -eu
 preset="$1"
 if [ "$preset" = tsan ] && ! { command -v clang++-19 && [ -e /usr/lib/llvm-19/lib/libomp.so ]; } >/dev/null; then
