@@ -16,7 +16,7 @@ struct SlabProfiles {
   std::vector<double> z;                         // middle of each bin [sigma]
   std::vector<double> density;                   // [sigma^-3]
   std::vector<double> local_density;             // mean over the sites in the bin; 0 in an empty bin
-  std::vector<std::vector<double>> probability;  // of each state, likewise
+  std::vector<std::vector<double>> probability;  // of each state, mean over the sites in the bin
   std::vector<double> sites;                     // counted in the bin, all samples together
   std::uint64_t samples = 0;
 };
