@@ -1,8 +1,9 @@
-// Every pair potential beside Lennard-Jones of the same cutoff and pairs: V + gradient over all pairs at N = 108 (minimum image)
-// and forces over a list at N = 4000. The parameters are those of the Kob-Andersen mixture. The instruction set is the best there
-// is, or LANESCAPE_ISA.
+// Compares every pair potential with Lennard-Jones of the same cutoff on the same pairs: V + gradient over all pairs at N = 108
+// (minimum image) and forces over a list at N = 4000. The parameters are those of the Kob-Andersen mixture. The instruction set is
+// the best available one, or LANESCAPE_ISA.
 //
-// Counters: `us` per evaluation, `ratio` to Lennard-Jones; both the best of all iterations, which alternate between the two.
+// Counters: `us` per evaluation, and `ratio` to Lennard-Jones. Both are the best of all iterations, which alternate between the two
+// potentials.
 
 #include <fmt/format.h>
 
@@ -54,7 +55,7 @@ std::vector<FormCase> cases() {
           {"hertzian", form("hertzian", {}, 1.0)}};
 }
 
-// A crystal with each coordinate moved by up to 0.05: every form has forces there.
+// A crystal with each coordinate displaced by up to 0.05, so that every form has forces.
 Configuration rattled(const PairModel& model, std::size_t particles) {
   Configuration configuration = fcc_start(model, particles, 1.2, 1);
   const CounterRandom random(1, RandomStream::displacements);
