@@ -22,6 +22,12 @@ bool Mixture::has_equal_masses() const {
   return std::all_of(species.begin(), species.end(), [&](const Species& s) { return s.mass == species.front().mass; });
 }
 
+std::vector<double> Mixture::species_masses() const {
+  std::vector<double> masses;
+  for (const Species& s : species) masses.push_back(s.mass);
+  return masses;
+}
+
 std::vector<double> Mixture::masses_of(const std::vector<int>& species_of_particles) const {
   std::vector<double> masses;
   masses.reserve(species_of_particles.size());

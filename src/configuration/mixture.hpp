@@ -20,6 +20,7 @@ struct Mixture {
   // Index of a species by its name; throws Error(bad_input) listing the known names.
   int find_species(std::string_view symbol) const;
   bool has_equal_masses() const;
+  std::vector<double> species_masses() const;
   // Of particles of these species.
   std::vector<double> masses_of(const std::vector<int>& species_of_particles) const;
   // Throws Error(bad_input) unless there are species, each with a unique name, a mass above 0 and a fraction from 0 to 1.

@@ -6,13 +6,21 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/random.hpp"
+#include "dynamics/maxwell.hpp"
 
 namespace lanescape {
 namespace {
 
 // Boxes below this many largest diameters let a sphere meet two images of another.
 constexpr double least_box = 2.05;
+
+// For the functions of dynamics/maxwell.hpp.
+template <class Spheres>
+auto particles_of(Spheres& spheres, const std::vector<double>& masses) {
+  return [&spheres, &masses](auto action) {
+    for (std::size_t i = 0; i < masses.size(); ++i) action(masses[i], spheres[i].vx, spheres[i].vy, spheres[i].vz);
+  };
+}
 
 }  // namespace
 
@@ -43,13 +51,7 @@ EventDriven::EventDriven(const Configuration& start, std::vector<double> masses,
 }
 
 void EventDriven::draw_velocities(std::uint64_t seed) {
-  const CounterRandom random(seed, RandomStream::velocities);
-  for (std::size_t i = 0; i < size(); ++i) {
-    const auto velocity = random.velocity(1.0 / std::sqrt(masses_[i]), 0, static_cast<std::uint32_t>(i));
-    spheres_[i].vx = velocity[0];
-    spheres_[i].vy = velocity[1];
-    spheres_[i].vz = velocity[2];
-  }
+  draw_maxwell_velocities(particles_of(spheres_, masses_), [](double mass) { return 1.0 / std::sqrt(mass); }, seed);
   rescale();
 }
 
@@ -63,15 +65,7 @@ void EventDriven::set_velocities(const std::vector<double>& velocities) {
   make_calendar();
 }
 
-Point EventDriven::momentum() const {
-  Point sum{};
-  for (std::size_t i = 0; i < size(); ++i) {
-    sum[0] += masses_[i] * spheres_[i].vx;
-    sum[1] += masses_[i] * spheres_[i].vy;
-    sum[2] += masses_[i] * spheres_[i].vz;
-  }
-  return sum;
-}
+Point EventDriven::momentum() const { return total_momentum(particles_of(spheres_, masses_)); }
 
 double EventDriven::kinetic_energy() const {
   double sum = 0.0;
@@ -84,14 +78,7 @@ double EventDriven::kinetic_energy() const {
 
 void EventDriven::rescale() {
   resynchronise();
-  double mass = 0.0;
-  for (const double m : masses_) mass += m;
-  const auto drift = momentum();
-  for (auto& s : spheres_) {
-    s.vx -= drift[0] / mass;
-    s.vy -= drift[1] / mass;
-    s.vz -= drift[2] / mass;
-  }
+  remove_momentum(particles_of(spheres_, masses_));
   const double kinetic = kinetic_energy();
   if (kinetic > 0.0) {
     const double factor = std::sqrt(1.5 * static_cast<double>(size()) / kinetic);

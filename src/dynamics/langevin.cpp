@@ -1,21 +1,16 @@
 #include "dynamics/langevin.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
-#include "core/error.hpp"
+#include "core/option_checks.hpp"
+#include "dynamics/maxwell.hpp"
 
 namespace lanescape {
 
 void LangevinOptions::check() const {
-  const auto need = [](const char* what, double value, double most) {
-    if (!(value > 0.0 && value <= most))
-      throw_bad_input(fmt::format("{} {} is not allowed: above 0 and at most {}", what, value, most));
-  };
-  need("temperature", temperature, 1e6);
-  need("friction", friction, 1e6);
-  need("time step", time_step, 0.1);
+  check_positive("temperature", temperature, 1e6);
+  check_positive("friction", friction, 1e6);
+  check_positive("time step", time_step, 0.1);
 }
 
 Langevin::Langevin(SoftLandscape& landscape, const Mixture& model, const ParticleLayout& layout, AlignedArray position,
@@ -28,17 +23,14 @@ Langevin::Langevin(SoftLandscape& landscape, const Mixture& model, const Particl
       velocity_(position_.size(), 0.0),
       gradient_(position_.size(), 0.0) {
   options.check();
-  const CounterRandom random(options.seed, RandomStream::velocities);
+  const std::vector<double> masses = model.species_masses();
+  const auto width = [&options](double mass) { return std::sqrt(options.temperature / mass); };
+  draw_maxwell_velocities(particles_of(layout, masses, velocity_), width, options.seed);
   for (std::size_t s = 0; s < layout.blocks().size(); ++s)
     for (std::size_t k = layout.blocks()[s].begin; k < layout.blocks()[s].begin + layout.blocks()[s].count; ++k) {
-      const double mass = model.species[s].mass;
-      const auto velocity = random.velocity(std::sqrt(options.temperature / mass), 0, static_cast<std::uint32_t>(slots_.size()));
-      for (std::uint32_t axis = 0; axis < 3; ++axis) {
-        kick_[axis * layout.slots() + k] = -0.5 * options.time_step / mass;
-        velocity_[axis * layout.slots() + k] = velocity[axis];
-      }
+      for (std::size_t axis = 0; axis < 3; ++axis) kick_[axis * layout.slots() + k] = -0.5 * options.time_step / masses[s];
       slots_.push_back(k);
-      masses_.push_back(mass);
+      masses_.push_back(masses[s]);
     }
   landscape_->gradient(position_, gradient_);
 }

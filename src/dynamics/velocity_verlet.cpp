@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/padded.hpp"
-#include "core/random.hpp"
+#include "dynamics/maxwell.hpp"
 
 namespace lanescape {
 
@@ -11,11 +11,11 @@ VelocityVerlet::VelocityVerlet(SoftLandscape& landscape, const Mixture& model, c
                                double time_step)
     : landscape_(&landscape),
       layout_(&layout),
+      masses_(model.species_masses()),
       position_(std::move(position)),
       velocity_(position_.size(), 0.0),
       gradient_(position_.size(), 0.0),
       time_step_(time_step) {
-  for (const Species& s : model.species) masses_.push_back(s.mass);
   if (model.has_equal_masses()) {
     segments_.push_back({0, layout.dimension(), masses_.front()});
   } else {
@@ -29,39 +29,13 @@ VelocityVerlet::VelocityVerlet(SoftLandscape& landscape, const Mixture& model, c
 }
 
 void VelocityVerlet::draw_velocities(double temperature, std::uint64_t seed) {
-  const CounterRandom random(seed, RandomStream::velocities);
-  std::size_t particle = 0;
-  for (std::size_t s = 0; s < layout_->blocks().size(); ++s) {
-    const auto& block = layout_->blocks()[s];
-    const double width = std::sqrt(temperature / masses_[s]);
-    for (std::size_t k = block.begin; k < block.begin + block.count; ++k, ++particle) {
-      const auto velocity = random.velocity(width, 0, static_cast<std::uint32_t>(particle));
-      for (std::size_t axis = 0; axis < 3; ++axis) velocity_[axis * layout_->slots() + k] = velocity[axis];
-    }
-  }
+  const auto width = [temperature](double mass) { return std::sqrt(temperature / mass); };
+  draw_maxwell_velocities(particles_of(*layout_, masses_, velocity_), width, seed);
   rescale_to(temperature);
 }
 
-void VelocityVerlet::remove_momentum() {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    double momentum = 0.0, mass = 0.0;
-    const auto for_each = [&](auto action) {
-      for (std::size_t s = 0; s < layout_->blocks().size(); ++s) {
-        const auto& block = layout_->blocks()[s];
-        for (std::size_t k = block.begin; k < block.begin + block.count; ++k)
-          action(velocity_[axis * layout_->slots() + k], masses_[s]);
-      }
-    };
-    for_each([&](double v, double m) {
-      momentum += m * v;
-      mass += m;
-    });
-    for_each([&](double& v, double) { v -= momentum / mass; });
-  }
-}
-
 void VelocityVerlet::rescale_to(double temperature) {
-  remove_momentum();
+  remove_momentum(particles_of(*layout_, masses_, velocity_));
   const double now = this->temperature();
   if (now == 0.0) return;
   const double factor = std::sqrt(temperature / now);

@@ -47,12 +47,11 @@ class VelocityVerlet {
     double mass;
   };
   void kick(double time);
-  void remove_momentum();
 
   SoftLandscape* landscape_;
   const ParticleLayout* layout_;
+  std::vector<double> masses_;  // per species
   std::vector<Segment> segments_;
-  std::vector<double> masses_;  // per species block
   AlignedArray position_, velocity_, gradient_;
   double time_step_;
   std::optional<double> potential_;  // at the present position, where it is known
