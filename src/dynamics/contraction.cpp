@@ -7,6 +7,7 @@
 
 #include "configuration/hard_sphere_model.hpp"
 #include "core/error.hpp"
+#include "core/option_checks.hpp"
 #include "neighbour/cell_grid.hpp"
 
 namespace lanescape {
@@ -157,7 +158,7 @@ void ContractionOptions::check() const {
     throw_bad_input(fmt::format("volume factor {} is not allowed: at least 0.9 and below 1", volume_factor));
   if (!(max_move > 0.0 && max_move <= 1.0))
     throw_bad_input(fmt::format("largest move {} is not allowed: above 0 and at most 1 diameter of the smallest sphere", max_move));
-  if (max_passes == 0) throw_bad_input("number of passes over overlapping pairs must be at least 1");
+  check_at_least_one("number of passes over overlapping pairs", max_passes);
 }
 
 std::optional<Configuration> contract(const Configuration& start, double fraction, const ContractionOptions& options,

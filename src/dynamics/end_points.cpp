@@ -5,9 +5,26 @@
 #include <array>
 #include <cmath>
 
+#include "core/enum_words.hpp"
 #include "core/error.hpp"
+#include "core/option_checks.hpp"
 
 namespace lanescape {
+namespace {
+
+using Phase = EndPointGenerator::Phase;
+
+constexpr EnumWord<Phase> phase_names[] = {{Phase::melt, "melting"},
+                                           {Phase::cool, "cooling"},
+                                           {Phase::check, "temperature check"},
+                                           {Phase::settle, "settling"},
+                                           {Phase::pair, "towards the far end point"},
+                                           {Phase::between, "between pairs"},
+                                           {Phase::done, "done"},
+                                           {Phase::temperature_not_held, "temperature not held"},
+                                           {Phase::distance_not_reached, "distance not reached"}};
+
+}  // namespace
 
 void EndPointOptions::make_quick() {
   melt_steps = 20'000;
@@ -19,21 +36,14 @@ void EndPointOptions::make_quick() {
 }
 
 void EndPointOptions::check() const {
-  const auto positive = [](const char* what, double value) {
-    if (!(value > 0.0) || !std::isfinite(value))
-      throw_bad_input(fmt::format("{} {} is not allowed: it must be finite and above 0", what, value));
-  };
-  positive("temperature", temperature);
-  positive("melting temperature", melt_temperature);
-  positive("distance", distance);
-  positive("time step", time_step);
-  positive("temperature tolerance", check_tolerance);
-  const auto at_least_one = [](const char* what, std::uint64_t value) {
-    if (value == 0) throw_bad_input(fmt::format("{} must be at least 1", what));
-  };
-  at_least_one("number of pairs", pairs);
-  at_least_one("rescale interval", rescale_interval);
-  at_least_one("check interval", check_interval);
+  check_positive("temperature", temperature);
+  check_positive("melting temperature", melt_temperature);
+  check_positive("distance", distance);
+  check_positive("time step", time_step);
+  check_positive("temperature tolerance", check_tolerance);
+  check_at_least_one("number of pairs", pairs);
+  check_at_least_one("rescale interval", rescale_interval);
+  check_at_least_one("check interval", check_interval);
   if (time_step > 0.02)
     throw_bad_input(fmt::format("time step {} is not allowed: at most 0.02, or energy is not conserved", time_step));
   if (check_steps < check_interval)
@@ -88,40 +98,18 @@ EndPointGenerator::EndPointGenerator(SoftLandscape& landscape, const Mixture& mo
                                      AlignedArray start, const EndPointOptions& options)
     : landscape_(&landscape),
       layout_(&layout),
+      masses_(model.species_masses()),
       options_(options),
       verlet_(landscape, model, layout, std::move(start), options.time_step) {
   options_.check();
   if (layout.size() < 2)
     throw_bad_input(
         fmt::format("{} particle has no temperature once its momentum is removed: at least 2 are needed", layout.size()));
-  for (const Species& s : model.species) masses_.push_back(s.mass);
   verlet_.draw_velocities(options_.melt_temperature, options_.seed);
   enter(Phase::melt);
 }
 
-const char* EndPointGenerator::name(Phase phase) {
-  switch (phase) {
-    case Phase::melt:
-      return "melting";
-    case Phase::cool:
-      return "cooling";
-    case Phase::check:
-      return "temperature check";
-    case Phase::settle:
-      return "settling";
-    case Phase::pair:
-      return "towards the far end point";
-    case Phase::between:
-      return "between pairs";
-    case Phase::done:
-      return "done";
-    case Phase::temperature_not_held:
-      return "temperature not held";
-    case Phase::distance_not_reached:
-      return "distance not reached";
-  }
-  return "";
-}
+const char* EndPointGenerator::name(Phase phase) { return word_of(phase_names, phase); }
 
 std::uint64_t EndPointGenerator::steps_of(Phase phase) const {
   switch (phase) {
@@ -140,7 +128,7 @@ std::uint64_t EndPointGenerator::steps_of(Phase phase) const {
   }
 }
 
-std::optional<EndPointGenerator::Phase> EndPointGenerator::after(Phase phase) {
+std::optional<Phase> EndPointGenerator::after(Phase phase) {
   switch (phase) {
     case Phase::melt:
       return Phase::cool;

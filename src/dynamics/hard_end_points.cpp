@@ -5,51 +5,50 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/enum_words.hpp"
 #include "core/error.hpp"
+#include "core/option_checks.hpp"
 
 namespace lanescape {
+namespace {
+
+using Phase = HardEndPointGenerator::Phase;
+
+constexpr EnumWord<Phase> phase_names[] = {{Phase::equilibrate, "equilibration"},
+                                           {Phase::pair, "towards the far end point"},
+                                           {Phase::between, "between pairs"},
+                                           {Phase::done, "done"},
+                                           {Phase::distance_not_reached, "distance not reached"}};
+
+}  // namespace
+
 void HardEndPointOptions::make_quick() {
   equilibration_collisions = 200'000;
   between_collisions = 20'000;
 }
 
 void HardEndPointOptions::check() const {
-  if (!(distance > 0.0) || !std::isfinite(distance))
-    throw_bad_input(fmt::format("distance {} is not allowed: it must be finite and above 0", distance));
-  if (pairs == 0) throw_bad_input("number of pairs must be at least 1");
-  if (check_interval == 0) throw_bad_input("check interval must be at least 1");
-  if (max_pair_collisions == 0) throw_bad_input("collisions of a pair must be at least 1");
+  check_positive("distance", distance);
+  check_at_least_one("number of pairs", pairs);
+  check_at_least_one("check interval", check_interval);
+  check_at_least_one("collisions of a pair", max_pair_collisions);
 }
 
 HardEndPointGenerator::HardEndPointGenerator(const HardSphereModel& model, const ParticleLayout& layout, const Configuration& start,
                                              const HardEndPointOptions& options, Isa isa)
     : layout_(&layout),
+      masses_(model.species_masses()),
       options_(options),
       dynamics_(start, model.masses_of(start.species), kernel_table(isa)),
       spheres_(start.box, layout, start.radii, kernel_table(isa)) {
   options_.check();
   if (layout.size() < 2)
     throw_bad_input(fmt::format("{} particle has nothing to collide with: at least 2 are needed", layout.size()));
-  for (const Species& s : model.species) masses_.push_back(s.mass);
   dynamics_.draw_velocities(options_.seed);
   enter(options_.equilibration_collisions > 0 ? Phase::equilibrate : Phase::pair);
 }
 
-const char* HardEndPointGenerator::name(Phase phase) {
-  switch (phase) {
-    case Phase::equilibrate:
-      return "equilibration";
-    case Phase::pair:
-      return "towards the far end point";
-    case Phase::between:
-      return "between pairs";
-    case Phase::done:
-      return "done";
-    case Phase::distance_not_reached:
-      return "distance not reached";
-  }
-  return "";
-}
+const char* HardEndPointGenerator::name(Phase phase) { return word_of(phase_names, phase); }
 
 std::uint64_t HardEndPointGenerator::phase_total() const {
   if (phase_ == Phase::equilibrate) return options_.equilibration_collisions;

@@ -8,6 +8,7 @@
 
 #include "core/enum_words.hpp"
 #include "core/error.hpp"
+#include "core/option_checks.hpp"
 #include "core/parallel.hpp"
 #include "insertion/search.hpp"
 
@@ -58,21 +59,17 @@ bool Region::contains(const std::array<double, 3>& position) const {
 }
 
 void InsertionOptions::check(const Box& box) const {
-  const auto positive = [](const char* what, double value) {
-    if (!(value > 0.0) || !std::isfinite(value))
-      throw_bad_input(fmt::format("{} {} is not allowed: it must be finite and above 0", what, value));
-  };
   if (!std::isfinite(target)) throw_bad_input(fmt::format("target energy {} is not allowed: it must be finite", target));
-  positive("tolerance", tolerance);
-  if (largest_step) positive("largest step", *largest_step);
-  positive("traverse step", traverse_step);
-  positive("overlap energy", overlap_energy);
-  positive("clear energy", clear_energy);
+  check_positive("tolerance", tolerance);
+  if (largest_step) check_positive("largest step", *largest_step);
+  check_positive("traverse step", traverse_step);
+  check_positive("overlap energy", overlap_energy);
+  check_positive("clear energy", clear_energy);
   // Else the step from an overlap would lead further in.
   if (const double least = std::pow(4.0 / overlap_energy, 1.0 / 12.0); !(contact > least) || !std::isfinite(contact))
     throw_bad_input(
         fmt::format("contact distance {} is not allowed: above {}, where repulsion alone is the overlap energy", contact, least));
-  if (most_iterations && *most_iterations == 0) throw_bad_input("most iterations must be at least 1");
+  if (most_iterations) check_at_least_one("most iterations", *most_iterations);
   if (most_trials == 0 || most_trials > 1'000'000'000)
     throw_bad_input(fmt::format("most trials {} is not allowed: from 1 to 1000000000", most_trials));
   if (region) region->check(box);
