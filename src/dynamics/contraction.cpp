@@ -13,9 +13,10 @@
 namespace lanescape {
 namespace {
 
-// Pushing to contact itself would come nearer to it for ever; a little beyond, it ends. Far below the gaps of any fluid.
+// Pairs are pushed slightly beyond contact: pushes to contact itself would converge without ending. Much smaller than the gaps
+// between spheres in any fluid.
 constexpr double push_margin = 1e-6;
-// Lists of some fifteen spheres at liquid densities, and several moves of the usual size until they are made anew.
+// Gives about fifteen neighbours per sphere at liquid densities, and several moves of the usual size between rebuilds.
 constexpr double skin_per_diameter = 0.5;
 
 }  // namespace
@@ -41,7 +42,7 @@ Configuration SqueezedSpheres::configuration() const {
 double SqueezedSpheres::distance_squared(const Position& a, const Position& b) const {
   double squared = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    // Both are in the box, or were when the lists were made: half a box and some.
+    // Both positions were in the box when the lists were built, so they differ by little more than one box edge.
     const double length = spheres_.box.length[axis], d = std::fabs(b[axis] - a[axis]), nearest = std::min(d, std::fabs(length - d));
     squared += nearest * nearest;
   }
@@ -73,7 +74,7 @@ void SqueezedSpheres::place(std::size_t i, const Position& position) {
   positions_[i] = position;
   double squared = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) squared += std::pow(position[axis] - made_at_[i][axis], 2);
-  // Half the skin, and a little less: the displacement is rounded too.
+  // Slightly less than (skin / 2)^2, because the displacement is rounded.
   stale_ = stale_ || squared > 0.249 * skin_ * skin_;
 }
 
@@ -91,7 +92,7 @@ bool SqueezedSpheres::push_apart(std::uint64_t max_passes) {
   return false;
 }
 
-// One pass; whether any pair had to be pushed.
+// One pass over all pairs. Returns true if any pair overlapped.
 bool SqueezedSpheres::push_pairs_apart() {
   if (stale_) make_lists();
   bool pushed = false;
@@ -107,7 +108,7 @@ bool SqueezedSpheres::push_pairs_apart() {
         squared += line[axis] * line[axis];
       }
       const double distance = std::sqrt(squared);
-      if (!(distance > 0.0)) line = {1.0, 0.0, 0.0};  // any line does
+      if (!(distance > 0.0)) line = {1.0, 0.0, 0.0};  // coincident centres: any direction will separate them
       const double each = 0.5 * (contact * (1.0 + push_margin) - distance) / (distance > 0.0 ? distance : 1.0);
       Position a = positions_[i], b = positions_[j];
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -138,7 +139,8 @@ std::size_t SqueezedSpheres::sweep(const CounterRandom& random, std::uint64_t sw
     Position trial = before;
     for (std::uint32_t axis = 0; axis < 3; ++axis)
       trial[axis] += max_move * (2.0 * random.uniform(sweep, static_cast<std::uint32_t>(i), axis) - 1.0);
-    // What overlaps by the lists there are does so by any; new ones, for a move out of the skin, are made for few then.
+    // An overlap found in the old lists is certain. So the lists are rebuilt, after a move beyond the skin, only for moves that
+    // pass this first test.
     if (!fits(i, trial)) continue;
     place(i, trial);
     if (stale_) {
@@ -182,7 +184,7 @@ std::optional<Configuration> contract(const Configuration& start, double fractio
   }
   Configuration dense = spheres.configuration();
   const double edge = cube_edge(dense, fraction);
-  // A larger box takes images further apart, along each axis, and leaves everything else where it is.
+  // A larger box only moves periodic images further apart, so it causes no overlap.
   dense.box.length = {edge, edge, edge};
   return dense;
 }

@@ -151,7 +151,7 @@ void EndPointGenerator::enter(Phase phase) {
   while (after(phase) && steps_of(phase) == 0) phase = *after(phase);
   phase_ = phase;
   phase_start_ = verlet_.steps();
-  // A repeated check corrects by what the last one found on average; the temperature of the moment fluctuates too much.
+  // A repeated check rescales by the mean of the last one, because the instantaneous temperature fluctuates too much.
   if (phase == Phase::check && checks_ > 0)
     verlet_.rescale_to(verlet_.temperature() * options_.temperature / checked_temperature_);
   else if (phase == Phase::cool || phase == Phase::check)
@@ -194,7 +194,7 @@ void EndPointGenerator::step() {
     else
       enter(checks_ < options_.max_checks ? Phase::check : Phase::temperature_not_held);
   } else if (phase_ == Phase::pair) {
-    // Leaving out the drift, or particles, only shortens the distance: the vector kernel tells when a closer look is due.
+    // The distance of all particles, drift included, is an upper bound. The exact distance is computed only if this bound suffices.
     const bool near = landscape_->algebra().distance(pair_start_, verlet_.position()) >= options_.distance;
     const double distance = near ? distance_so_far() : 0.0;
     if (distance >= options_.distance) {

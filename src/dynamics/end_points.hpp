@@ -11,32 +11,32 @@
 
 namespace lanescape {
 
-// The protocol of [G] 3.1.2.2: melt hot, cool, check that the temperature holds without a thermostat, settle, then
-// collect pairs of configurations a given distance apart. Counts are molecular dynamics steps.
+// The protocol of [G] 3.1.2.2: melt at a high temperature, cool, check that the temperature holds without a thermostat, settle,
+// then collect pairs of configurations a given distance apart. Counts are molecular dynamics steps.
 struct EndPointOptions {
   double temperature = 1.0;             // [epsilon/k_B]
   double distance = 0.0;                // DeltaR between the ends of a pair [sigma]
-  std::optional<int> distance_species;  // count only this species' motion towards the distance
+  std::optional<int> distance_species;  // only this species counts for the distance
   std::uint64_t pairs = 1;
   double time_step = 0.001;  // [sigma sqrt(m/epsilon)]
   double melt_temperature = 5.0;
   std::uint64_t melt_steps = 200'000;
   std::uint64_t cooling_steps = 1'000'000;
-  std::uint64_t rescale_interval = 1'000;  // while melting and cooling
+  std::uint64_t rescale_interval = 1'000;  // steps between velocity rescalings while melting and cooling
   std::uint64_t check_steps = 1'000'000;
-  std::uint64_t check_interval = 100;  // steps between temperature samples of the check
-  double check_tolerance = 0.005;      // |<T> - T|; otherwise rescale and check again
+  std::uint64_t check_interval = 100;  // steps between temperature samples
+  double check_tolerance = 0.005;      // largest |<T> - T|; beyond it velocities are rescaled and the check is repeated
   std::uint64_t max_checks = 100;
   std::uint64_t settle_steps = 1'000'000;
-  std::uint64_t between_steps = 100'000;  // between pairs
+  std::uint64_t between_steps = 100'000;  // from the end of a pair to the start of the next
   std::uint64_t max_pair_steps = 1'000'000'000;
   std::uint64_t seed = 1;
-  int threads = 1;  // of one evaluation; no effect on any result
+  int threads = 1;  // of one evaluation; the results do not depend on it
   Precision precision = Precision::double_precision;
 
-  // The same protocol with counts small enough to try things out.
+  // Reduces the counts for short trial runs.
   void make_quick();
-  // Throws Error(bad_input) naming the option that is out of range.
+  // Throws Error(bad_input) that names the option out of range.
   void check() const;
 };
 
@@ -44,20 +44,20 @@ struct EndPointOptions {
 struct EndPointPair {
   AlignedArray start, finish;
   double distance = 0.0;    // |R_f - R_i| without the motion of the centre of mass [sigma]
-  std::uint64_t steps = 0;  // from one end to the other; collisions of hard spheres
-  double time = 0.0;        // likewise
+  std::uint64_t steps = 0;  // from start to finish; collisions for hard spheres
+  double time = 0.0;        // from start to finish [sigma sqrt(m/epsilon)]
   void exchange(Archive& archive);
 };
 
-// All pairs of a protocol, in groups of their own.
+// Archives all pairs, each in its own group.
 void exchange_pairs(Archive& archive, std::vector<EndPointPair>& pairs);
 
-// Runs the protocol one step at a time; all its state can be archived between steps.
+// Runs the protocol one step at a time. The whole state can be archived between any two steps.
 class EndPointGenerator {
  public:
   enum class Phase : std::uint64_t { melt, cool, check, settle, pair, between, done, temperature_not_held, distance_not_reached };
 
-  // Draws the velocities. `landscape` and `layout` must outlive this object.
+  // Draws initial velocities. `landscape` and `layout` must outlive this object.
   EndPointGenerator(SoftLandscape& landscape, const Mixture& model, const ParticleLayout& layout, AlignedArray start,
                     const EndPointOptions& options);
 
@@ -65,27 +65,29 @@ class EndPointGenerator {
   bool ended() const { return phase_ >= Phase::done; }
   Phase phase() const { return phase_; }
   static const char* name(Phase phase);
-  // Steps of the phase that are done, and how many it has (0 where that is not known).
+  // Steps done in the current phase, and its total number of steps (0 if unknown in advance).
   std::uint64_t phase_done() const { return verlet_.steps() - phase_start_; }
   std::uint64_t phase_total() const { return steps_of(phase_); }
   bool equilibrated() const { return phase_ >= Phase::settle && phase_ <= Phase::done; }
 
   const VelocityVerlet& verlet() const { return verlet_; }
-  // For who goes on where the protocol has settled.
+  // For callers that continue the dynamics after the settling phase.
   VelocityVerlet& verlet() { return verlet_; }
   const std::vector<EndPointPair>& pairs() const { return pairs_; }
-  // Mean temperature of the last check, and since the check was passed.
+  // Mean temperature during the last check.
   double checked_temperature() const { return checked_temperature_; }
+  // Mean temperature since the check was passed; that of the check if there are no later samples.
   double mean_temperature() const {
     return mean_samples_ == 0 ? checked_temperature_ : mean_sum_ / static_cast<double>(mean_samples_);
   }
+  // From the start of the current pair; 0 outside of pairs [sigma].
   double distance_so_far() const;
 
   void exchange(Archive& archive);
 
  private:
   std::uint64_t steps_of(Phase phase) const;
-  // What follows a phase that lasts a number of steps and nothing else; such a phase of no steps is passed over.
+  // The next phase after one that ends at a fixed number of steps; nothing for phases that end otherwise.
   static std::optional<Phase> after(Phase phase);
   void enter(Phase phase);
   void sample_temperature();
@@ -103,7 +105,8 @@ class EndPointGenerator {
   std::vector<EndPointPair> pairs_;
 };
 
-// |b - a| over all particles, or those of one species, less the motion of the centre of mass [sigma].
+// |b - a| over all particles, or those of one species, with the displacement of the centre of mass removed [sigma]. `masses` are
+// per species.
 double end_point_distance(const AlignedArray& a, const AlignedArray& b, const ParticleLayout& layout,
                           const std::vector<double>& masses, std::optional<int> species);
 

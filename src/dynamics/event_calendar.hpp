@@ -10,8 +10,8 @@
 
 namespace lanescape {
 
-// The next event of each particle and the earliest of all: a tournament in blocks of 16, of which an update replays only those
-// that the particle is in. Ties go to the lowest number, so that nothing depends on the order of updates.
+// The time of the next event of each particle, and the earliest of them, found by a tournament in blocks of 16. An update replays
+// only the blocks of its particle. Ties go to the lowest number, so the result does not depend on the order of updates.
 class EventCalendar {
  public:
   EventCalendar(std::size_t events, const kernels::KernelTable& table);

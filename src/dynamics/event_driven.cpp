@@ -11,7 +11,7 @@
 namespace lanescape {
 namespace {
 
-// Boxes below this many largest diameters let a sphere meet two images of another.
+// Least box edge, in largest diameters: in a shorter box a sphere could collide with two images of another.
 constexpr double least_box = 2.05;
 
 // For the functions of dynamics/maxwell.hpp.
@@ -44,8 +44,8 @@ EventDriven::EventDriven(const Configuration& start, std::vector<double> masses,
   const double shortest = box_.shortest();
   if (!(shortest >= 2.0 * least_box * largest_radius_))
     throw_bad_input(
-        fmt::format("box edge {} is not allowed: at least {} of the largest diameter {} is needed, or spheres meet two "
-                    "images of another",
+        fmt::format("box edge {} is not allowed: at least {} of the largest diameter {} is needed, or spheres could collide "
+                    "with two images of another",
                     shortest, least_box, 2.0 * largest_radius_));
   resynchronise();
 }
@@ -110,7 +110,7 @@ void EventDriven::positions_at(double now, std::vector<double>& out) const {
 
 void EventDriven::positions(double time, std::vector<double>& out) const { positions_at(time - time_base_, out); }
 
-// Not at time(): its rounding would move spheres in contact.
+// Uses now_ instead of time(), whose rounding would shift spheres in contact.
 std::vector<double> EventDriven::positions() const {
   std::vector<double> out;
   positions_at(now_, out);
@@ -129,7 +129,7 @@ double EventDriven::mean_neighbours() const {
   return sum / static_cast<double>(size());
 }
 
-// Wraps a particle into the box, 0 <= x < L; a second call changes nothing.
+// Wraps a particle into the box, 0 <= x < L. A second call changes nothing.
 void EventDriven::wrap(std::size_t i) {
   double* const position = &spheres_[i].x;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -140,7 +140,7 @@ void EventDriven::wrap(std::size_t i) {
     x -= boxes * length;
     image += boxes;
     if (x < length) continue;
-    // x a little below zero rounds to the far face.
+    // A tiny negative x is rounded to L above.
     x = 0.0;
     image += 1.0;
   }
@@ -225,7 +225,7 @@ void EventDriven::exchange(Archive& archive) {
   archive.field("virial", virial_);
   if (!archive.reading()) return;
   if (spheres.size() != 8 * size() || images.size() != 3 * size())
-    throw_bad_input(fmt::format("the state holds another number of particles than {}", size()));
+    throw_bad_input(fmt::format("the state does not hold {} particles", size()));
   std::copy_n(spheres.begin(), 8 * size(), &spheres_[0].x);
   for (std::size_t i = 0; i < size(); ++i) std::copy_n(images.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, images_[i].begin());
   largest_radius_ = 0.0;

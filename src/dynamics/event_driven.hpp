@@ -16,37 +16,38 @@
 
 namespace lanescape {
 
-// Hard spheres of any diameters and masses in free flight between elastic collisions ([G] 3.2.3.1), event by event and exact:
-// each particle keeps its own time and its earliest event, a calendar finds the first of all, neighbour lists bound the
-// search. Time in sigma sqrt(m / k_B T).
+// Event-driven dynamics of hard spheres ([G] 3.2.3.1): free flight between elastic collisions, exact up to rounding, for any
+// diameters and masses. Each particle keeps its own time and its earliest event. A calendar finds the earliest event of all.
+// Neighbour lists limit the pairs that are examined. Time in sigma sqrt(m / k_B T).
 //
-// A particle's list holds every other one that it can touch before either leaves its shell, a sphere of radius `shell` around the
-// position its list was built at; leaving is an event. Every resync_interval() collisions, at counts that depend on nothing else,
-// all particles advance to one time, which becomes zero again, and lists and calendar are rebuilt. So rounding does not grow with
-// time, and a state at such a count is positions, velocities and counters alone.
+// The shell of a particle is a sphere of radius `shell` around the position at which its list was built. The list holds all
+// particles that it can touch before either of the two leaves its shell. Leaving the shell is an event, after which the list is
+// rebuilt. Every resync_interval() collisions all particles advance to one time, this time is reset to zero, and lists and calendar
+// are rebuilt. The interval depends on the number of particles only. So rounding errors do not grow with time, and the state at
+// such a count is positions, velocities and counters only.
 class EventDriven {
  public:
-  // At rest. `masses` per particle. `growth`: diameters grow by this share of themselves per unit of time, of what they were at the
-  // last resynchronisation. Spheres must not overlap; throws Error(bad_input) where the box is shorter than 2.05 of the largest
-  // diameter, where a particle would meet two images of another.
+  // Starts at rest. `masses` per particle. `growth`: relative growth of the diameters per unit of time, with respect to those at
+  // the last resynchronisation. Spheres must not overlap. Throws Error(bad_input) if a box edge is shorter than 2.05 of the largest
+  // diameter: a particle could then collide with two images of another.
   EventDriven(const Configuration& start, std::vector<double> masses, const kernels::KernelTable& table, double growth = 0.0);
 
-  // Maxwell's distribution, total momentum removed, then sum m v^2 / 2 = (3/2) N T with T = 1, the convention of [G].
+  // Draws velocities from Maxwell's distribution at T = 1, then calls rescale().
   void draw_velocities(std::uint64_t seed);
-  // Sets velocities (3N, the user's order) as they are.
+  // Sets velocities (3N, the user's order) without any rescaling.
   void set_velocities(const std::vector<double>& velocities);
-  // Removes the total momentum and scales to T = 1.
+  // Removes the total momentum and scales to sum m v^2 / 2 = (3/2) N T with T = 1, the convention of [G].
   void rescale();
 
-  // Advances to the next collision. There must be one: not all particles may be at rest.
+  // Advances to the next collision. At least one particle must be moving.
   void collide();
-  // Advances to `time` since the start, through all collisions until then.
+  // Advances to `time`, counted from the start, through all collisions until then.
   void advance_to(double time);
-  // Brings all particles to one time and rebuilds lists and calendar. The counts at which this happens affect the later bits.
+  // Advances all particles to one time and rebuilds lists and calendar. Later results depend, to the bit, on when this is called.
   void resynchronise();
 
-  // Collisions between resynchronisations: 256 per particle, at most 100,000, at least 4 per particle. Times then lose less than
-  // four digits, and the O(N) cost of each is small.
+  // Collisions between resynchronisations: 256 per particle, at most 100,000, but at least 4 per particle. Times then lose fewer
+  // than four digits, and the O(N) cost of a resynchronisation is small per collision.
   std::uint64_t resync_interval() const {
     return std::max<std::uint64_t>(std::min<std::uint64_t>(100'000, 256 * size()), 4 * size());
   }
@@ -54,25 +55,24 @@ class EventDriven {
   std::size_t size() const { return spheres_.size(); }
   const Box& box() const { return box_; }
   std::uint64_t collisions() const { return collisions_; }
-  double time() const { return time_base_ + now_; }  // of the last event, or that advance_to() was given
+  double time() const { return time_base_ + now_; }  // of the last event or the last advance_to()
   double next_event_time() const { return time_base_ + calendar_.first_time(); }
   double kinetic_energy() const;
   Point momentum() const;
-  // sum over collisions of 2 mu |b|, b = r.v at contact, mu the reduced mass.
+  // Sum over collisions of 2 mu |b|, with b = r.v at contact and mu the reduced mass.
   double virial() const { return virial_; }
-  // Z = 1 + virial / (3 N k_B T t) since `virial_before` and `time_before`; k_B T = 2 K / (3 N - 3), since the total momentum is
-  // zero.
+  // Z = 1 + virial / (3 N k_B T t), virial and t counted from `virial_before` and `time_before`.
+  // k_B T = 2 K / (3 N - 3), because the total momentum is zero.
   double compressibility(double virial_before = 0.0, double time_before = 0.0) const;
   double radius(std::size_t particle) const { return spheres_[particle].radius * (1.0 + growth_ * now_); }
 
-  // Unwrapped positions at `time`, from the last event to the next one, or at the last event, 3N in the user's order.
+  // Unwrapped positions, 3N in the user's order: at `time`, which lies between the last event and the next, or at the last event.
   void positions(double time, std::vector<double>& out) const;
   std::vector<double> positions() const;
   std::vector<double> velocities() const;
   Configuration configuration() const;
 
-  // A state that is read continues with the same bits only if it was written right after resynchronise(), or at a multiple of
-  // resync_interval() collisions.
+  // True directly after a resynchronisation. Only a state written there continues with the same bits after it is read.
   bool at_resync() const { return fresh_; }
   void exchange(Archive& archive);
 
@@ -84,21 +84,21 @@ class EventDriven {
 
  private:
   struct Event {
-    std::int32_t partner;              // none: the particle leaves its shell
-    std::uint32_t partner_collisions;  // when the event was predicted: more by now, and it will not happen
+    std::int32_t partner;              // `none` if the particle leaves its shell
+    std::uint32_t partner_collisions;  // the partner's collisions at the prediction; the event is stale once there are more
   };
   static constexpr std::int32_t none = -1;
   static constexpr double never = std::numeric_limits<double>::infinity();
-  // The nearest image of the difference d of two coordinates that are both in the box.
+  // The nearest image of the difference d of two coordinates in the box.
   static double nearest(double d, double length) {
     if (d > 0.5 * length) return d - length;
     if (d < -0.5 * length) return d + length;
     return d;
   }
-  // Tells whether two particles with references in the box can touch before either leaves its shell.
+  // Tells whether two particles can touch before either leaves its shell. Their shells are centred in the box.
   struct Encounters {
     Box box;
-    double swollen, shells;  // largest radius until the horizon, in radii; two shells [sigma]
+    double swollen, shells;  // factor by which radii grow until the horizon; twice the shell radius [sigma]
 
     bool possible(const Point& at, double radius, const Point& other, double other_radius) const;
   };
@@ -126,10 +126,10 @@ class EventDriven {
   void grow_lists();
   void rebuild_list(std::size_t i);
   double shell_exit(std::size_t i) const;
-  // Finds the next event of particle i; the result is its time.
+  // Predicts the next event of particle i and returns its time.
   double predict(std::size_t i);
   void bounce(std::size_t i, std::size_t j);
-  // Processes the next event; true if it was a collision.
+  // Processes the next event. Returns true if it is a collision.
   bool next_event();
 
   const kernels::KernelTable* table_;
@@ -137,16 +137,16 @@ class EventDriven {
   std::vector<double> masses_;
   double growth_;
   std::vector<kernels::FlyingSphere, AlignedAllocator<kernels::FlyingSphere>> spheres_;
-  std::vector<Point> images_;  // whole boxes left behind
+  std::vector<Point> images_;  // number of box edges by which each wrapped position differs from the unwrapped one
   double now_ = 0.0, time_base_ = 0.0;
   std::uint64_t collisions_ = 0;
   double virial_ = 0.0;
-  bool fresh_ = false;  // nothing has happened since the last resynchronisation
+  bool fresh_ = false;  // no event since the last resynchronisation
 
-  // Follows from the above at each resynchronisation.
+  // The rest is derived from the above at each resynchronisation.
   double shell_ = 0.0, largest_radius_ = 0.0, horizon_ = 0.0;
   CellGrid grid_;
-  std::vector<Point> references_;  // where each list was built
+  std::vector<Point> references_;  // centre of each shell: the position at which the list was built
   std::size_t list_capacity_ = 32;
   std::vector<std::int32_t> lists_, list_sizes_;
   EventCalendar calendar_;

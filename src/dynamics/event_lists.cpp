@@ -9,9 +9,9 @@
 namespace lanescape {
 namespace {
 
-// The mean number of neighbours that shells aim at: two vectors of eight hold nearly every list.
+// Intended mean length of a list: nearly every list then fits into two vectors of eight.
 constexpr double wanted_neighbours = 13.0;
-// The lists allow for this growth; then they are rebuilt.
+// Relative growth of the diameters that the lists allow for before they are rebuilt.
 constexpr double growth_per_resync = 0.01;
 
 }  // namespace
@@ -23,8 +23,8 @@ inline bool EventDriven::Encounters::possible(const Point& at, double radius, co
   return dx * dx + dy * dy + dz * dz < reach * reach;
 }
 
-// The shell is as large as lists of the wanted length and the nearest-image rule allow: two particles, each up to a shell away from
-// its list's reference, must still be nearer than half the box.
+// Chooses the shell for lists of the intended length, within the limit of the nearest-image rule: two particles in contact, each up
+// to a shell radius from its reference, must have references within half the box edge.
 void EventDriven::choose_shell() {
   horizon_ = growth_ > 0.0 ? growth_per_resync / growth_ : never;
   const double swollen = growth_ > 0.0 ? 1.0 + growth_per_resync : 1.0;
@@ -45,15 +45,15 @@ void EventDriven::make_lists() {
   }
   lists_.assign(size() * list_capacity_, 0);
   list_sizes_.assign(size(), 0);
-  // The same lists as by for_each_neighbour(), but cell by cell from copies that are contiguous in memory: particles near in space
-  // are far apart in memory.
+  // Gives the same lists as for_each_neighbour(), but works cell by cell on contiguous copies, because particles near in space may
+  // be far apart in memory.
   struct Copy {
     Point reference;
     double radius;
     std::int32_t particle;
   };
   std::vector<Copy> copies;
-  std::vector<std::size_t> first;  // of each cell, and the end
+  std::vector<std::size_t> first;  // index of each cell's first copy, then the number of copies
   for (std::size_t cell = 0; cell < grid_.cells(); ++cell) {
     first.push_back(copies.size());
     grid_.for_each_in(cell, [&](std::int32_t j) {
@@ -107,7 +107,7 @@ void EventDriven::remove(std::size_t i, std::int32_t neighbour) {
   *std::find(begin, last, neighbour) = *last;
 }
 
-// Particle i has left its shell: rebuilds its list around its position and updates the lists of others.
+// After particle i has left its shell: rebuilds its list around its position and updates the lists of its neighbours.
 void EventDriven::rebuild_list(std::size_t i) {
   bring_to_now(i);
   wrap(i);

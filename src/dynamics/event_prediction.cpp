@@ -6,7 +6,7 @@
 
 namespace lanescape {
 
-// The time at which particle i leaves its shell if it meets no other.
+// The time at which particle i leaves its shell if it does not collide before.
 double EventDriven::shell_exit(std::size_t i) const {
   const auto& s = spheres_[i];
   const auto& at = references_[i];
@@ -49,7 +49,7 @@ void EventDriven::bounce(std::size_t i, std::size_t j) {
   for (std::size_t axis = 0; axis < 3; ++axis) d[axis] = box_.nearest_image(axis, d[axis]);
   const double b = d[0] * (n.vx - m.vx) + d[1] * (n.vy - m.vy) + d[2] * (n.vz - m.vz);
   const double squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-  // Surfaces separate as fast as they approached, the growth of both included.
+  // In an elastic collision the surfaces separate as fast as they approached; surfaces also move by the growth of both radii.
   const double swelling = growth_ > 0.0 ? growth_ * (m.radius + n.radius) * std::sqrt(squared) : 0.0;
   const double impulse = 2.0 * (b - swelling) / squared / (masses_[i] + masses_[j]);
   const double to_m = impulse * masses_[j], to_n = impulse * masses_[i];

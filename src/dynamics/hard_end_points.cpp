@@ -96,12 +96,13 @@ void HardEndPointGenerator::step() {
   }
   if (done >= options_.max_pair_collisions) return enter(Phase::distance_not_reached);
   if (done % options_.check_interval != 0 || dynamics_.time() < look_again_) return;
-  // Leaving out the drift, or particles, only shortens the distance: a plain sum tells when a closer look is due.
+  // The distance of all particles, drift included, is an upper bound. The exact distance is computed only if this bound suffices.
   dynamics_.positions(dynamics_.time(), scratch_);
   double squared = 0.0;
   for (std::size_t k = 0; k < scratch_.size(); ++k) squared += (scratch_[k] - pair_start_[k]) * (scratch_[k] - pair_start_[k]);
   if (squared < options_.distance * options_.distance) {
-    // A look takes O(N), and none finds anything before: |dR/dt|^2 = sum v^2 <= 2 K / m, m the least mass, and K is conserved.
+    // Each evaluation costs O(N). |dR/dt|^2 = sum v^2 <= 2 K / m, with m the least mass and K conserved, gives the earliest time at
+    // which the distance can be reached.
     const double fastest = std::sqrt(2.0 * dynamics_.kinetic_energy() / *std::min_element(masses_.begin(), masses_.end()));
     look_again_ = dynamics_.time() + 0.999 * (options_.distance - std::sqrt(squared)) / fastest;
     return;

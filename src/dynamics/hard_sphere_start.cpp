@@ -20,25 +20,26 @@ namespace lanescape {
 namespace {
 
 constexpr double max_packing_fraction = 0.74;
-constexpr double dense = 0.50;         // from here on lattices do not melt, or melt too slowly
-constexpr double lattice_room = 1.01;  // what a lattice must be able to reach, over what is wanted
+constexpr double dense = 0.50;         // lattices at this packing fraction or above do not melt, or melt too slowly
+constexpr double lattice_room = 1.01;  // least ratio of the densest lattice's packing fraction to the wanted one
 
-constexpr double melt_packing_fraction = 0.25;     // where diameters start to grow
+constexpr double melt_packing_fraction = 0.25;     // at which diameters start to grow
 constexpr std::uint64_t melt_collisions = 200;     // per particle
-constexpr std::uint64_t rescale_collisions = 20;   // per particle; growth heats by some tenths meanwhile
-constexpr std::uint64_t most_collisions = 20'000;  // per particle and stage: several times what any start needs
+constexpr std::uint64_t rescale_collisions = 20;   // per particle; growth heats by some ten per cent between rescalings
+constexpr std::uint64_t most_collisions = 20'000;  // limit per particle and stage: several times what any start needs
 constexpr double jammed_compressibility = 1e4;
-// Radii grow until no contact is left at those of the model.
+// Radii grow beyond the model's by this share, so that spheres of the model's radii are not in contact.
 constexpr double room_to_part = 1e-9;
 
-// A stage of growth: its rate, in units of thermal velocity over mean diameter, until radii are this part of the model's. The
-// first is too fast for one component to crystallise on the way (phi 0.49 to 0.55); the last leaves spheres time to make room.
+// A stage of growth: its rate, in units of thermal velocity over mean diameter, and the ratio of radii to the model's at its end.
+// The first stage is too fast for one component to crystallise at phi = 0.49 to 0.55. The last is slow enough for spheres to
+// rearrange.
 struct Growth {
   double rate, until;
 };
 constexpr std::array<Growth, 2> stages = {{{1e-2, 0.99}, {1e-3, 1.0 + room_to_part}}};
 
-// Runs a stage of growth: true once radii are `until` of the model's, false where the monitor asked to stop.
+// Runs a stage of growth until radii are `until` times the model's. Returns false if the monitor asks to stop.
 bool grow_until(EventDriven& spheres, double until, double model_radius, double wanted_fraction, RunMonitor& monitor) {
   const std::uint64_t per_round = rescale_collisions * spheres.size() / 2, most = most_collisions * spheres.size() / 2;
   while (true) {
@@ -56,7 +57,7 @@ bool grow_until(EventDriven& spheres, double until, double model_radius, double 
   }
 }
 
-// False where the monitor asked to stop.
+// Returns false if the monitor asks to stop.
 bool melt(EventDriven& spheres, RunMonitor& monitor) {
   for (std::uint64_t k = 0; k < melt_collisions; ++k) {
     for (std::size_t i = 0; i < (spheres.size() + 1) / 2; ++i) spheres.collide();
@@ -66,7 +67,7 @@ bool melt(EventDriven& spheres, RunMonitor& monitor) {
   return true;
 }
 
-// Grows in the box that is wanted: diameters end a little above those of the model, which are put in their place.
+// Grows spheres in the final box. Diameters end slightly above the model's and are then set to the model's.
 std::optional<Configuration> grown_start(const Configuration& dilute, double wanted_fraction, std::uint64_t seed,
                                          const kernels::KernelTable& table, RunMonitor& monitor) {
   const std::size_t n = dilute.size();
@@ -76,7 +77,7 @@ std::optional<Configuration> grown_start(const Configuration& dilute, double wan
   for (double& x : start.positions) x *= scale;
   for (double& radius : start.radii) radius *= scale;
 
-  // Where spheres are in equilibrium does not depend on masses, and like ones mix soonest.
+  // Positions in equilibrium do not depend on masses. Equal masses mix fastest.
   const std::vector<double> masses(n, 1.0);
   EventDriven liquid(start, masses, table);
   liquid.draw_velocities(seed);
@@ -99,7 +100,7 @@ std::optional<Configuration> grown_start(const Configuration& dilute, double wan
 }
 
 void check_box(const Configuration& spheres, double packing_fraction, const kernels::KernelTable& table) {
-  // Its own words, from a single sphere in that box.
+  // A single sphere in that box makes the constructor throw its own message.
   const double edge = cube_edge(spheres, packing_fraction), largest = *std::max_element(spheres.radii.begin(), spheres.radii.end());
   EventDriven({Box{{edge, edge, edge}}, {0}, {0.0, 0.0, 0.0}, {largest}}, {1.0}, table);
 }
@@ -124,11 +125,11 @@ std::optional<Configuration> make_hard_sphere_start(const HardSphereModel& model
   if (!(packing_fraction > 0.0 && packing_fraction <= max_packing_fraction))
     throw_bad_input(
         fmt::format("packing fraction {} is not allowed: above 0 and at most {}", packing_fraction, max_packing_fraction));
-  if (particles == 1) throw_bad_input("1 particle is not allowed: at least 2, for it has nothing to collide with");
+  if (particles == 1) throw_bad_input("1 particle is not allowed: at least 2 are needed for a collision");
   const kernels::KernelTable& table = kernel_table(isa);
   const Arrangement arrangement = model.species.size() > 1 ? Arrangement::halves : Arrangement::random;
 
-  // These also refuse what is wrong with the model or the number of particles.
+  // These two calls also throw for an invalid model or number of particles.
   const double largest_mixed = largest_lattice_packing_fraction(model, particles, Arrangement::random, seed);
   const Configuration dilute = hard_sphere_start(
       model, particles, std::min({melt_packing_fraction, 0.9 * packing_fraction, 0.9 * largest_mixed}), Arrangement::random, seed);

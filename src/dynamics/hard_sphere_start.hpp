@@ -12,21 +12,22 @@
 
 namespace lanescape {
 
-// How hard spheres come to their packing fraction:
-// - lattice: on fcc sites, species in halves of the box where there are several;
-// - contraction: from such a lattice at 0.50, or the densest there is below, by mechanical contraction with [G]'s counts;
-// - growth: from a dilute melt by event-driven dynamics while all diameters grow (Lubachevsky and Stillinger, doi
-//   10.1007/BF01025983), which mixes species and is fast;
-// - automatic: lattice below 0.50 where it leaves 1 % of room, growth elsewhere.
+// How to make hard spheres at a packing fraction:
+// - lattice: fcc sites; several species are put into separate parts of the box;
+// - contraction: mechanical contraction with [G]'s counts, from such a lattice at 0.50 or the largest packing fraction below that a
+//   lattice can have;
+// - growth: event-driven dynamics of a dilute melt while all diameters grow (Lubachevsky and Stillinger, doi 10.1007/BF01025983),
+//   which is fast and mixes species;
+// - automatic: lattice below 0.50 if the densest lattice is at least 1 % denser, growth otherwise.
 enum class StartMethod { automatic, lattice, contraction, growth };
 
-// From auto, lattice, contraction, growth; throws Error(bad_input) for any other word.
+// Allowed words: auto, lattice, contraction, growth. Throws Error(bad_input) for any other.
 StartMethod parse_start_method(std::string_view word);
 const char* to_string(StartMethod method);
 
-// Hard spheres without overlaps, positions inside a cube of exactly this packing fraction. Nothing where the monitor asked to
-// stop. Throws Error(bad_input) for fewer than two particles, a packing fraction outside (0, 0.74] or beyond what the method
-// reaches, and a box shorter than event-driven dynamics allows.
+// Hard spheres without overlaps in a cubic box of exactly this packing fraction, positions in the box. Returns nothing if the
+// monitor asks to stop. Throws Error(bad_input) for fewer than two particles, a packing fraction outside (0, 0.74] or beyond what
+// the method reaches, and a box shorter than event-driven dynamics allows.
 std::optional<Configuration> make_hard_sphere_start(const HardSphereModel& model, std::size_t particles, double packing_fraction,
                                                     StartMethod method, std::uint64_t seed, Isa isa, RunMonitor& monitor);
 

@@ -13,20 +13,20 @@ namespace lanescape {
 
 struct LangevinOptions {
   double temperature = 1.0;  // [epsilon/k_B]
-  double friction = 1.0;     // gamma, of every particle [sqrt(epsilon/m)/sigma]
+  double friction = 1.0;     // gamma, equal for all particles [sqrt(epsilon/m)/sigma]
   double time_step = 0.005;  // [sigma sqrt(m/epsilon)]
   std::uint64_t seed = 1;
-  // Throws Error(bad_input) naming the option that is out of range.
+  // Throws Error(bad_input) that names the option out of range.
   void check() const;
 };
 
 // m dv = -grad V dt - gamma m v dt + sqrt(2 gamma m T) dW by the splitting BAOAB (Leimkuhler and Matthews,
-// doi 10.1093/amrx/abs010): half a kick, half a drift, friction and noise, half a drift, half a kick. Averages over positions of a
-// harmonic landscape are exact at any time step that is stable. Noise is a function of (seed, step, particle), so that neither
-// threads nor interruptions matter.
+// doi 10.1093/amrx/abs010): half a kick, half a drift, friction and noise, half a drift, half a kick. Position averages of a
+// harmonic landscape are exact at any stable time step. Noise is a function of (seed, step, particle), so results do not depend on
+// threads or interruptions.
 class Langevin {
  public:
-  // Velocities from Maxwell's distribution. `landscape` and `layout` must outlive this object.
+  // Draws velocities from Maxwell's distribution. `landscape` and `layout` must outlive this object.
   Langevin(SoftLandscape& landscape, const Mixture& model, const ParticleLayout& layout, AlignedArray position,
            const LangevinOptions& options);
 
@@ -37,7 +37,7 @@ class Langevin {
   const AlignedArray& position() const { return position_; }
   const AlignedArray& velocity() const { return velocity_; }
 
-  // Positions, velocities and counters; forces are recomputed when read, to the same bits.
+  // Archives positions, velocities and counters. Reading recomputes forces, to the same bits.
   void exchange(Archive& archive);
 
  private:
@@ -48,7 +48,7 @@ class Langevin {
   SoftLandscape* landscape_;
   LangevinOptions options_;
   CounterRandom noise_;
-  std::vector<std::size_t> slots_;  // of the particles, one after the other
+  std::vector<std::size_t> slots_;  // of the particles, in the order of their slots
   std::vector<double> masses_;      // of the particles
   AlignedArray kick_;               // -dt / 2m per coordinate, 0 for padding
   AlignedArray position_, velocity_, gradient_;

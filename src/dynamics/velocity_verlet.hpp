@@ -12,15 +12,15 @@
 
 namespace lanescape {
 
-// Newton's equations by the velocity form of Verlet's algorithm (Swope et al., doi 10.1063/1.442716) on a landscape, positions
-// unwrapped, time in sigma sqrt(m/epsilon).
+// Newton's equations on a landscape by the velocity Verlet algorithm (Swope et al., doi 10.1063/1.442716). Positions are unwrapped.
+// Time in sigma sqrt(m/epsilon).
 class VelocityVerlet {
  public:
   // Starts at rest. `landscape` and `layout` must outlive this object.
   VelocityVerlet(SoftLandscape& landscape, const Mixture& model, const ParticleLayout& layout, AlignedArray position,
                  double time_step);
 
-  // Velocities from Maxwell's distribution, total momentum removed, then scaled to the temperature exactly.
+  // Draws velocities from Maxwell's distribution, then calls rescale_to().
   void draw_velocities(double temperature, std::uint64_t seed);
   // Removes the total momentum and scales so that sum m v^2 / 2 = (3/2) N T, the convention of [G] 3.1.2.2.
   void rescale_to(double temperature);
@@ -28,20 +28,20 @@ class VelocityVerlet {
 
   double temperature() const;     // 2 K / (3 N)
   double kinetic_energy() const;  // [epsilon]
-  double potential_energy();      // an evaluation of its own where the step had no need of it
+  double potential_energy();      // costs an evaluation after each step
   std::uint64_t steps() const { return steps_; }
   double time_step() const { return time_step_; }
   const AlignedArray& position() const { return position_; }
   const AlignedArray& velocity() const { return velocity_; }
-  // In the layout's order; padding zero.
+  // In the layout's order, with zeros in the padding.
   void set_velocity(AlignedArray velocity) { velocity_ = std::move(velocity); }
   void reverse_velocities();
 
-  // Positions, velocities and counters; forces are recomputed when read, to the same bits.
+  // Archives positions, velocities and counters. Reading recomputes forces, to the same bits.
   void exchange(Archive& archive);
 
  private:
-  // One species' coordinates along one axis, or everything at once where all masses agree.
+  // The coordinates of one species along one axis, or all coordinates if all masses are equal.
   struct Segment {
     std::size_t begin, length;
     double mass;
@@ -54,7 +54,7 @@ class VelocityVerlet {
   std::vector<Segment> segments_;
   AlignedArray position_, velocity_, gradient_;
   double time_step_;
-  std::optional<double> potential_;  // at the present position, where it is known
+  std::optional<double> potential_;  // at the current position, if known
   std::uint64_t steps_ = 0;
 };
 

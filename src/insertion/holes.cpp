@@ -6,16 +6,16 @@
 namespace lanescape {
 namespace {
 
-// Directions: equal steps of cos theta and of phi, hence of equal solid angle.
+// Directions at equal steps of cos theta and of phi have equal solid angles.
 constexpr int polar_steps = 12, azimuthal_steps = 24;
-constexpr double radial_step = 0.02;  // [sigma]; thinner walls are stepped over
+constexpr double radial_step = 0.02;  // [sigma]; walls thinner than this may be missed
 constexpr int halvings = 20;
 
 std::array<double, 3> beyond(const std::array<double, 3>& point, const std::array<double, 3>& direction, double r) {
   return {point[0] + r * direction[0], point[1] + r * direction[1], point[2] + r * direction[2]};
 }
 
-// Where the energy first rises above the value; nothing up to the largest radius.
+// The distance at which the energy first reaches `iso_energy`; nothing if it does not up to the largest radius.
 std::optional<double> radius(const ProbeField& fluid, const std::array<double, 3>& point, const std::array<double, 3>& direction,
                              double iso_energy) {
   for (double r = radial_step; r <= largest_hole_radius; r += radial_step) {
@@ -30,7 +30,7 @@ std::optional<double> radius(const ProbeField& fluid, const std::array<double, 3
   return std::nullopt;
 }
 
-// <R^2>/<R>^2 of the fit.
+// <R^2>/<R>^2 of an ellipsoid of eccentricity e.
 double ratio_at(double e) { return e * std::atanh(e) / std::pow(std::asin(e), 2); }
 
 }  // namespace
@@ -38,7 +38,7 @@ double ratio_at(double e) { return e * std::atanh(e) / std::pow(std::asin(e), 2)
 void fit_prolate(Hole& hole) {
   const double ratio = hole.mean_square / (hole.mean_radius * hole.mean_radius);
   hole.anisotropy = ratio - 1.0;
-  // The ratio rises from 1 without bound.
+  // The ratio rises monotonically with e, from 1 without bound, so bisection finds e.
   double low = 0.0, high = 1.0;
   for (int k = 0; k < 60; ++k) {
     const double middle = 0.5 * (low + high);

@@ -7,24 +7,24 @@
 
 namespace lanescape {
 
-// The shape of a region of low energy, seen from a point in it ([U] VI.A, Eqs. 9 to 13): the distance R to where the energy first
-// rises above a value, over all directions.
+// The shape of a region of low energy around a point ([U] VI.A, Eqs. 9 to 13). R is the distance, in a given direction, at which
+// the energy first rises above a given value. Means are over all directions.
 struct Hole {
   double mean_radius = 0.0;      // <R> [sigma]
   double mean_square = 0.0;      // <R^2> [sigma^2]
   double anisotropy = 0.0;       // <R^2>/<R>^2 - 1
-  double eccentricity = 0.0;     // of the prolate ellipsoid, semi-axes a, a, b, that fits both means
+  double eccentricity = 0.0;     // of the prolate ellipsoid with semi-axes a, a, b that has both means
   double semi_minor = 0.0;       // a [sigma]
   double semi_major = 0.0;       // b [sigma]
-  double open_directions = 0.0;  // the share in which the energy did not rise up to `largest_radius`, where R is that
+  double open_directions = 0.0;  // share of directions without such a rise; R is largest_hole_radius there
 };
 
-inline constexpr double largest_hole_radius = 3.0;
+inline constexpr double largest_hole_radius = 3.0;  // [sigma]
 
-// Nothing where the energy at the point is not below `iso_energy`.
+// Returns nothing if the energy at the point is not below `iso_energy` [epsilon].
 std::optional<Hole> measure_hole(const ProbeField& fluid, const std::array<double, 3>& point, double iso_energy);
 
-// Eccentricity and semi-axes from both means: <R> = a asin(e)/e and <R^2> = a^2 atanh(e)/e.
+// Computes eccentricity and semi-axes from both means: <R> = a asin(e)/e and <R^2> = a^2 atanh(e)/e.
 void fit_prolate(Hole& hole);
 
 }  // namespace lanescape

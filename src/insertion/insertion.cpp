@@ -17,9 +17,9 @@ namespace {
 
 constexpr std::size_t remembered_iterations = 100;
 constexpr std::size_t remembered_errors = 30;
-// |U0| below this has no relative error.
+// Below this |U0| errors are absolute.
 constexpr double least_relative_target = 1e-6;
-// Searches that run at the same time. Not the number of threads, which no result may depend on.
+// Number of searches that may run at the same time. It is a constant, because no result may depend on the number of threads.
 constexpr std::size_t batch = 32;
 
 constexpr EnumWord<InsertionMethod> methods[] = {{InsertionMethod::usher, "usher"},
@@ -65,10 +65,10 @@ void InsertionOptions::check(const Box& box) const {
   check_positive("traverse step", traverse_step);
   check_positive("overlap energy", overlap_energy);
   check_positive("clear energy", clear_energy);
-  // Else the step from an overlap would lead further in.
+  // Otherwise a step out of an overlap would go the wrong way.
   if (const double least = std::pow(4.0 / overlap_energy, 1.0 / 12.0); !(contact > least) || !std::isfinite(contact))
-    throw_bad_input(
-        fmt::format("contact distance {} is not allowed: above {}, where repulsion alone is the overlap energy", contact, least));
+    throw_bad_input(fmt::format("contact distance {} is not allowed: above {}, where r^-12 repulsion equals the overlap energy",
+                                contact, least));
   if (most_iterations) check_at_least_one("most iterations", *most_iterations);
   if (most_trials == 0 || most_trials > 1'000'000'000)
     throw_bad_input(fmt::format("most trials {} is not allowed: from 1 to 1000000000", most_trials));
@@ -93,7 +93,8 @@ double InsertionHistory::mean_iterations() const {
 double InsertionHistory::allowed_error(double tolerance) const {
   const std::size_t before = std::min(errors_.size(), remembered_errors - 1);
   const double sum = std::accumulate(errors_.end() - static_cast<std::ptrdiff_t>(before), errors_.end(), 0.0);
-  // One hundredth is kept for insertions that find nothing left: of thirty such the mean is still within the tolerance.
+  // 1 % of the tolerance is reserved for insertions after the rest is used up: the mean over thirty of them stays within the
+  // tolerance.
   return std::max(0.99 * tolerance * static_cast<double>(before + 1) - sum, 0.01 * tolerance);
 }
 
@@ -127,10 +128,10 @@ void check_fluid(const ProbeField& fluid, const InsertionOptions& options) {
   if (fluid.size() == 0) throw_bad_input("insertion into an empty fluid is not allowed: at least one particle is needed");
 }
 
-// The next searches, each as if it were alone.
+// Runs the next searches independently of each other.
 std::vector<InsertionSearch> search_batch(const ProbeField& fluid, const InsertionOptions& options, std::size_t left,
                                           InsertionHistory& history, int threads) {
-  // A mean over the insertions before needs these to have ended.
+  // The running mean needs the results of all earlier insertions.
   const std::size_t count = std::min(left, options.measure_in_force() == ErrorMeasure::running_mean ? 1 : batch);
   std::vector<InsertionSearch> searches;
   for (std::size_t k = 0; k < count; ++k)
@@ -161,17 +162,17 @@ std::vector<Insertion> insert_particles(ProbeField& fluid, const InsertionOption
                                         InsertionHistory& history, int threads) {
   check_fluid(fluid, options);
   std::vector<Insertion> insertions;
-  std::vector<std::array<double, 3>> put_in;  // of the present batch
+  std::vector<std::array<double, 3>> inserted;  // positions inserted in the current batch
   while (insertions.size() < count) {
-    put_in.clear();
+    inserted.clear();
     const double constant = fluid.constant();
     for (InsertionSearch& search : search_batch(fluid, options, count - insertions.size(), history, threads)) {
-      search.follow(put_in, fluid.constant() - constant);
+      search.follow(inserted, fluid.constant() - constant);
       insertions.push_back(search.result());
       history.add(insertions.back());
       if (!insertions.back().found) continue;
       fluid.insert(insertions.back().position, fluid.species());
-      put_in.push_back(insertions.back().position);
+      inserted.push_back(insertions.back().position);
     }
   }
   return insertions;
@@ -179,7 +180,7 @@ std::vector<Insertion> insert_particles(ProbeField& fluid, const InsertionOption
 
 std::array<double, 3> maxwellian_velocity(const CounterRandom& random, std::uint64_t search, double temperature, double mass,
                                           const std::array<double, 3>& mean) {
-  // Draws 0 to 2 are the positions of its trials.
+  // The positions of the search's trials use draws 0 to 2.
   std::array<double, 3> velocity = random.velocity(std::sqrt(temperature / mass), search, 0, 3);
   for (std::size_t axis = 0; axis < 3; ++axis) velocity[axis] += mean[axis];
   return velocity;

@@ -20,13 +20,13 @@ RemovalRule parse_removal_rule(std::string_view word) { return parse_word(rules,
 std::optional<Removal> choose_removal(const PairModel& model, const Configuration& fluid, int species, RemovalRule rule,
                                       const std::optional<Region>& region, double energy, const CounterRandom& random,
                                       std::uint64_t number, Isa isa) {
-  std::vector<std::size_t> there;
+  std::vector<std::size_t> candidates;
   for (std::size_t i = 0; i < fluid.size(); ++i) {
     std::array<double, 3> home = fluid.position(i);
     for (std::size_t axis = 0; axis < 3; ++axis) home[axis] = fluid.box.wrapped(axis, home[axis]);
-    if (fluid.species[i] == species && (!region || region->contains(home))) there.push_back(i);
+    if (fluid.species[i] == species && (!region || region->contains(home))) candidates.push_back(i);
   }
-  if (there.empty()) return std::nullopt;
+  if (candidates.empty()) return std::nullopt;
   ProbeField field(model, fluid, species, kernel_table(isa));
   const auto energy_of = [&](std::size_t i) {
     if (model.form->has_diameters) {
@@ -35,16 +35,16 @@ std::optional<Removal> choose_removal(const PairModel& model, const Configuratio
       return own.energy(fluid.position(i));
     }
     field.remove(fluid.position(i), species);
-    const double falls_by = field.energy(fluid.position(i));
+    const double decrease = field.energy(fluid.position(i));
     field.insert(fluid.position(i), species);
-    return falls_by;
+    return decrease;
   };
   if (rule == RemovalRule::random) {
-    const std::size_t chosen = there[random.below(static_cast<std::uint32_t>(there.size()), number, 0, 6)];
+    const std::size_t chosen = candidates[random.below(static_cast<std::uint32_t>(candidates.size()), number, 0, 6)];
     return Removal{chosen, energy_of(chosen)};
   }
-  Removal best{there.front(), energy_of(there.front())};
-  for (const std::size_t i : there) {
+  Removal best{candidates.front(), energy_of(candidates.front())};
+  for (const std::size_t i : candidates) {
     const Removal other{i, energy_of(i)};
     if (std::abs(other.energy - energy) < std::abs(best.energy - energy)) best = other;
   }

@@ -12,11 +12,11 @@ using Point = InsertionSearch::Point;
 constexpr int most_uphill_in_a_row = 3;
 constexpr int most_line_evaluations = 3;  // [U] III.A: better estimates of the minimum gain nothing
 constexpr int most_bracket_evaluations = 100;
-// Of the slope along a line where its minimisation begins: less of it left is minimum enough.
+// A line minimisation ends when the slope falls below this share of the initial slope.
 constexpr double line_tolerance = 0.1;
 
 constexpr std::size_t candidates_at_once = 16;
-// For one start; then any will do, as where the region has no clear place.
+// Limit of candidates per start. After it the last candidate is used, for instance if no point of the region is clear.
 constexpr int most_candidates = 16'384;
 
 }  // namespace
@@ -44,7 +44,7 @@ InsertionSearch::Site InsertionSearch::probe(const Point& position) {
   if (!whole_box_ && options_->wall == RegionWall::well) {
     const double wall = 10.0 * std::sqrt(dot(site.gradient, site.gradient)) + 1.0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      // Towards the region is downhill or, where the way is up, uphill.
+      // The next step goes down the gradient for sign 1 and up for sign -1; it must lead back into the region.
       const double sign = sign_at(site);
       if (position[axis] < region_.low[axis]) site.gradient[axis] = -sign * wall;
       if (position[axis] > region_.high[axis]) site.gradient[axis] = sign * wall;
@@ -101,7 +101,8 @@ bool InsertionSearch::can_go_on(const Site& site) const {
   return spent_ < most_iterations_ && site.slope > 0.0 && std::isfinite(site.slope) && std::isfinite(site.energy);
 }
 
-// [U] Eq. 6. Above the overlap energy r^-12 is all there is: the step ends where the overlapped particle's contact does.
+// [U] Eq. 6. Above the overlap energy U = 4 epsilon (sigma/r)^12 gives the distance r to the overlapping particle; the step ends at
+// the contact distance from it.
 double InsertionSearch::usher_length(const Site& site) const {
   if (site.energy > options_->overlap_energy)
     return fluid_->largest_sigma() * (options_->contact - std::pow(4.0 / site.energy, 1.0 / 12.0));
@@ -123,7 +124,7 @@ InsertionSearch::Site InsertionSearch::at(const Segment& segment, double part) {
 
 namespace {
 
-// Where the cubic with these values and slopes at 0 and 1 has its minimum; one half where that is nowhere between.
+// The minimum of the cubic with these values and slopes at 0 and 1; 0.5 if it does not lie between them.
 double cubic_minimum(double value0, double slope0, double value1, double slope1) {
   const double d = slope0 + slope1 - 3.0 * (value1 - value0), root = d * d - slope0 * slope1;
   if (!(root >= 0.0)) return 0.5;
@@ -161,7 +162,7 @@ InsertionSearch::Site InsertionSearch::line_minimum(const Segment& segment, doub
   return best;
 }
 
-// Newton's method along the segment, bisection where it leaves what is known to hold the target.
+// Newton's method along the segment; bisection where Newton's step leaves the interval that contains the target.
 InsertionSearch::Site InsertionSearch::bracketed(const Segment& segment, double sign) {
   double low = 0.0, high = 1.0;  // sign (U - U0) is positive at low, negative at high
   const auto miss = [&](const Site& site) { return std::abs(site.energy - options_->target); };
@@ -184,7 +185,7 @@ bool InsertionSearch::usher_trial(Site& site) {
     if (!can_go_on(site)) return false;
     const double sign = sign_at(site);
     const Site next = step(site, sign, usher_length(site));
-    // A move across the target is no uphill move.
+    // A move across the target is not uphill.
     const bool uphill = sign * (next.energy - site.energy) > 0.0 && sign_at(next) == sign && !accepted(next);
     if (!uphill) {
       uphill_in_a_row = 0;
@@ -249,10 +250,11 @@ bool InsertionSearch::is_near(const Point& a, const Point& b) const {
   return squared < fluid_->largest_cutoff() * fluid_->largest_cutoff();
 }
 
-void InsertionSearch::follow(const std::vector<Point>& put_in, double constant_growth) {
-  if (!result_.found || put_in.empty()) return;
+void InsertionSearch::follow(const std::vector<Point>& inserted, double constant_growth) {
+  if (!result_.found || inserted.empty()) return;
   Site site{result_.position, result_.energy + constant_growth, {}, 0.0};
-  const bool disturbed = std::any_of(put_in.begin(), put_in.end(), [&](const Point& p) { return is_near(p, result_.position); });
+  const bool disturbed =
+      std::any_of(inserted.begin(), inserted.end(), [&](const Point& p) { return is_near(p, result_.position); });
   if (disturbed || !accepted(site)) {
     spent_ = 0;
     site = probe(result_.position);

@@ -11,38 +11,38 @@
 
 namespace lanescape {
 
-// One search for a place, trial after trial.
+// A search for a position of the target energy, by up to most_trials trials.
 class InsertionSearch {
  public:
   using Point = std::array<double, 3>;
-  // Where a trial has been and what the energy was, evaluation by evaluation, for who wants to see how errors shrink.
+  // Called at each evaluation, for studies of convergence.
   using Observer = std::function<void(std::uint64_t trial, const Point& position, double energy)>;
 
-  // `allowed`: the largest |U - U0| [epsilon]; `number` tells searches of one seed apart. `fluid` and `options` must outlive this
-  // object.
+  // `allowed`: the largest |U - U0| [epsilon]. `number`: selects the random numbers of the seed. `fluid` and `options` must outlive
+  // this object.
   InsertionSearch(const ProbeField& fluid, const InsertionOptions& options, std::uint64_t number, double allowed,
                   std::uint64_t most_iterations, Observer observer = {});
 
-  // Trials until one ends at a place or there have been most_trials.
+  // Runs trials until one succeeds or most_trials are done.
   void run();
-  // After particles have been put into the fluid, whose constant() has grown: where one of them is within reach of the place found,
-  // or the place will not do any more, the search goes on from there.
-  void follow(const std::vector<Point>& put_in, double constant_growth);
+  // Updates the result after particles were inserted at `inserted` and the fluid's constant() grew by `constant_growth`. If one of
+  // them is within the cutoff of the result, or the result is no longer within the tolerance, the search continues from there.
+  void follow(const std::vector<Point>& inserted, double constant_growth);
   const Insertion& result() const { return result_; }
 
  private:
-  // A position and what a probe feels there.
+  // A position with the energy and gradient of a probe there.
   struct Site {
     Point position{};
     double energy = 0.0;
     Point gradient{};
     double slope = 0.0;  // |gradient|
   };
-  // The energy along a segment, of which both ends are known.
+  // A straight segment between two evaluated sites.
   struct Segment {
     Segment(const Site& a, const Site& b);
     Site from, to;
-    Point along;  // from the one to the other
+    Point along;  // to - from
   };
 
   Site probe(const Point& position);
@@ -55,13 +55,13 @@ class InsertionSearch {
   bool can_go_on(const Site& site) const;
   double sign_at(const Site& site) const { return site.energy > options_->target ? 1.0 : -1.0; }
   double usher_length(const Site& site) const;
-  // Whether a trial from `site` ends at a place, which it then is.
+  // Run a trial from `site`. Return true if it succeeds; `site` is then the result.
   bool usher_trial(Site& site);
   bool descent_trial(Site& site);
   Site at(const Segment& segment, double part);
-  // The least of sign U on a segment that first falls and ends higher, or a place, or where the target has been crossed.
+  // Minimises sign U on a segment on which it first falls and then rises. Stops early at an accepted site or beyond the target.
   Site line_minimum(const Segment& segment, double sign);
-  // A place between two sites on either side of the target.
+  // Finds an accepted site between two sites with energies on opposite sides of the target.
   Site bracketed(const Segment& segment, double sign);
   bool trial(Site& site) { return options_->method == InsertionMethod::descent ? descent_trial(site) : usher_trial(site); }
   void finish(const Site& site);
@@ -70,7 +70,7 @@ class InsertionSearch {
   const ProbeField* fluid_;
   const InsertionOptions* options_;
   CounterRandom random_;
-  std::uint64_t number_, most_iterations_, spent_ = 0;  // spent: evaluations of the present trial
+  std::uint64_t number_, most_iterations_, spent_ = 0;  // spent: evaluations in the current trial
   double allowed_, largest_step_;
   std::vector<double> clearances_;
   Region region_;

@@ -8,8 +8,8 @@
 
 namespace lanescape {
 
-// Whether R is allowed: all that a stepper sees of a hard system. As with SoftLandscape one call is a
-// whole evaluation, R is all x, all y, all z, and each thread has its own.
+// The set of configurations R without overlaps: the interface of a hard system for steppers. As in SoftLandscape, one call is a
+// whole evaluation, R is stored as all x, all y, all z, and each thread needs its own object.
 class HardLandscape {
  public:
   virtual ~HardLandscape() = default;
@@ -21,12 +21,12 @@ class HardLandscape {
   virtual bool allowed(const AlignedArray& position) = 0;
   // The overlapping pairs, valid until the next call.
   virtual ContactPairs find_contacts(const AlignedArray& position) = 0;
-  // Adds the fictitious forces between them to `force`.
+  // Adds the fictitious forces of the pairs found last to `force`.
   virtual void add_contact_forces(kernels::ContactPotential potential, AlignedArray& force) = 0;
-  // HardSphereList::avoidance_trial().
+  // See HardSphereList::avoidance_trial().
   virtual std::size_t avoidance_trial(AlignedArray& trial, const AlignedArray& position, AlignedArray& sum, AlignedArray& force,
                                       double step) const = 0;
-  // The deepest overlap, at least 0 [sigma]; over all pairs, and slower.
+  // The depth of the deepest overlap, 0 if there is none [sigma]. Checks all pairs, so it is slow.
   virtual double violation(const AlignedArray& position) = 0;
 };
 

@@ -13,8 +13,8 @@ namespace lanescape {
 // Hard spheres in a fixed box, R in the layout's order.
 class HardSphereLandscape final : public HardLandscape {
  public:
-  // Of the smallest diameter; measured (docs/PERFORMANCE.md): shorter lists are rebuilt too often, longer ones have too
-  // many pairs.
+  // In smallest diameters. The fastest value measured (docs/PERFORMANCE.md): with a smaller skin lists are rebuilt too often, with
+  // a larger one they hold too many pairs.
   static constexpr double default_skin = 0.01;
 
   HardSphereLandscape(const Box& box, const ParticleLayout& layout, const std::vector<double>& radii, Isa isa,
@@ -24,7 +24,7 @@ class HardSphereLandscape final : public HardLandscape {
         algebra_(kernel_table(isa)),
         spheres_(box, layout, radii, kernel_table(isa)),
         list_(spheres_, skin * 2.0 * *std::min_element(radii.begin(), radii.end())) {}
-  // The list holds on to the spheres.
+  // The list refers to the spheres.
   HardSphereLandscape(const HardSphereLandscape&) = delete;
   HardSphereLandscape& operator=(const HardSphereLandscape&) = delete;
 

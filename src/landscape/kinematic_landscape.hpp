@@ -9,7 +9,7 @@
 
 namespace lanescape {
 
-// Between positions r and kinematic coordinates q = sqrt(m_j / <m>) r_j; nothing to do where all masses are equal.
+// Converts between positions r and kinematic coordinates q = sqrt(m_j / <m>) r_j. With equal masses both are the same.
 class KinematicMetric {
  public:
   KinematicMetric(const Mixture& model, const ParticleLayout& layout);
@@ -17,15 +17,15 @@ class KinematicMetric {
   bool is_euclidean() const { return scale_.empty(); }
   void to_kinematic(AlignedArray& positions) const;
   void to_positions(AlignedArray& q) const;
-  // dV/dq of dV/dr.
+  // Turns dV/dr into dV/dq.
   void gradient_to_kinematic(AlignedArray& gradient) const { to_positions(gradient); }
 
  private:
   AlignedArray scale_;  // sqrt(m_j / <m>) per coordinate, 1 for padding
 };
 
-// The same landscape in coordinates q = sqrt(m_j / <m>) r_j. Lengths in q are kinematic lengths, ds^2 = sum m_j dr_j^2 / <m>,
-// and gradients in q are inverse-mass weighted, so that every finder stays Euclidean whatever the masses.
+// A landscape in coordinates q = sqrt(m_j / <m>) r_j. Lengths in q are kinematic lengths, ds^2 = sum m_j dr_j^2 / <m>, and
+// gradients in q are weighted by inverse masses. So finders can use the Euclidean metric for any masses.
 class KinematicLandscape final : public SoftLandscape {
  public:
   KinematicLandscape(std::unique_ptr<SoftLandscape> inner, KinematicMetric metric);

@@ -16,11 +16,11 @@ std::unique_ptr<SoftLandscape> make(const StateMixtureModel& model, const Box& b
   if (options.precision == Precision::mixed)
     throw_bad_input(fmt::format("mixed precision is not allowed with model {}: Lennard-Jones mixtures have it", model.name));
   check_cutoff(model, box);
-  StateMixture::Options with;
-  with.threads = options.threads;
-  with.skin = options.skin;
-  if (options.search == PairSearch::all_pairs) with.search = PairSearch::all_pairs;
-  return std::make_unique<StateMixtureLandscape>(model, box, layout, isa, with);
+  StateMixture::Options state_options;
+  state_options.threads = options.threads;
+  state_options.skin = options.skin;
+  if (options.search == PairSearch::all_pairs) state_options.search = PairSearch::all_pairs;
+  return std::make_unique<StateMixtureLandscape>(model, box, layout, isa, state_options);
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 
 namespace lanescape {
 
-// The landscape of a soft model, whichever it is. Throws Error(bad_input) for hard spheres, and for mixed precision where a model
-// has none.
+// Makes the landscape of any soft model. Throws Error(bad_input) for hard spheres, and for mixed precision with a model that does
+// not support it.
 std::unique_ptr<SoftLandscape> make_landscape(const Model& model, const Box& box, const ParticleLayout& layout, Isa isa,
                                               const PairSearchOptions& options = {});
 

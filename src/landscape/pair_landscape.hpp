@@ -6,7 +6,7 @@
 
 namespace lanescape {
 
-// The landscape of a Lennard-Jones mixture in a fixed box, R in the layout's order.
+// The landscape of a mixture with a pair potential in a fixed box, R in the layout's order.
 class PairLandscape final : public SoftLandscape {
  public:
   PairLandscape(const PairModel& model, const Box& box, const ParticleLayout& layout, Isa isa,
@@ -20,10 +20,10 @@ class PairLandscape final : public SoftLandscape {
   void gradient(const AlignedArray& position, AlignedArray& gradient) override { interaction_.gradient(position, gradient); }
   void exchange(Archive& archive) override { interaction_.exchange(archive); }
 
-  // V and sum r.f [epsilon]; overwrites `gradient`.
   struct EnergyAndVirial {
-    double energy, virial;
+    double energy, virial;  // V and sum r.f [epsilon]
   };
+  // Overwrites `gradient`.
   EnergyAndVirial energy_and_virial(const AlignedArray& position, AlignedArray& gradient) {
     const PairInteraction::Evaluation e = interaction_.energy_and_gradient(position, gradient);
     return {e.energy, e.virial};

@@ -8,9 +8,10 @@
 
 namespace lanescape {
 
-// A potential-energy landscape V(R): all that a stepper sees of a soft system. One call takes microseconds, so that its virtual
-// dispatch costs nothing; there is none per pair. Not thread-safe: each thread has its own. R is an array of dimension() doubles in
-// three equal parts, all x, all y, all z; entries that belong to no particle stay zero.
+// A potential-energy landscape V(R): the interface of a soft system for steppers and dynamics. One call takes microseconds, so the
+// cost of its virtual dispatch is negligible; there is no virtual call per pair. Not thread-safe: each thread needs its own object.
+// R is an array of dimension() doubles in three equal parts, all x, all y, all z. Padding entries, which belong to no particle,
+// stay zero.
 class SoftLandscape {
  public:
   virtual ~SoftLandscape() = default;
@@ -19,15 +20,15 @@ class SoftLandscape {
   virtual std::size_t particles() const = 0;
   virtual const VectorAlgebra& algebra() const = 0;
 
-  // V(R) [epsilon]; bit-equal to what energy_and_gradient returns.
+  // V(R) [epsilon], with the same bits as energy_and_gradient().
   virtual double energy(const AlignedArray& position) = 0;
-  // V(R) and grad V(R) [epsilon/sigma].
+  // Returns V(R) and overwrites `gradient` with grad V(R) [epsilon/sigma].
   virtual double energy_and_gradient(const AlignedArray& position, AlignedArray& gradient) = 0;
-  // The same grad V(R), to the bit, without V.
+  // grad V(R) with the same bits as energy_and_gradient().
   virtual void gradient(const AlignedArray& position, AlignedArray& gradient) { energy_and_gradient(position, gradient); }
 
-  // What the bits of V depend on besides R, such as the positions at which a neighbour list was built. It is part of the state of
-  // whatever moves on this landscape.
+  // Archives hidden state besides R that affects the bits of V, such as the positions at which a neighbour list was built. It
+  // belongs to the state of any dynamics or path on this landscape.
   virtual void exchange(Archive&) {}
 };
 

@@ -6,7 +6,7 @@
 
 namespace lanescape {
 
-// The landscape of sites whose states follow their surroundings, in a fixed box, R in the layout's order.
+// The landscape of sites with states that depend on their surroundings, in a fixed box, R in the layout's order.
 class StateMixtureLandscape final : public SoftLandscape {
  public:
   StateMixtureLandscape(StateMixtureParts parts, const Box& box, const ParticleLayout& layout, Isa isa,
@@ -24,7 +24,7 @@ class StateMixtureLandscape final : public SoftLandscape {
   }
   void exchange(Archive& archive) override { interaction_.exchange(archive); }
 
-  // States and densities are those of the last evaluation.
+  // Its states and densities are those of the last evaluation.
   const StateMixture& interaction() const { return interaction_; }
 
  private:

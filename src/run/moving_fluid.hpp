@@ -14,18 +14,19 @@
 
 namespace lanescape {
 
-// Particles with velocities in the user's order: the state of a fluid whose number of particles changes, between two stretches of
-// molecular dynamics.
+// Positions and velocities in the user's order. The state of a fluid between two runs of molecular dynamics, while its number of
+// particles may change.
 struct FluidState {
   Configuration configuration;
   std::vector<double> velocities;  // 3N [sigma / time]
 
   void add(int species, const std::array<double, 3>& position, const std::array<double, 3>& velocity);
-  // Positions, velocities and box; the species too if there are several.
+  // Archives box, species, positions and velocities.
   void exchange(Archive& archive);
 };
 
-// Molecular dynamics of a soft fluid at constant energy. Its bits depend on the initial state alone.
+// Molecular dynamics of a soft fluid at constant energy. Its bits depend only on the initial state, the time step and the
+// instruction set.
 class MovingFluid {
  public:
   MovingFluid(const PairModel& model, const FluidState& state, double time_step, Isa isa, int threads);
@@ -34,15 +35,15 @@ class MovingFluid {
 
   void run(std::uint64_t steps);
   void rescale_to(double temperature) { verlet_.rescale_to(temperature); }
-  // The state now; positions in the box.
+  // The current state, with positions in the box.
   FluidState state() const;
 
   double temperature() const { return verlet_.temperature(); }        // 2 K / (3 N)
   double kinetic_energy() const { return verlet_.kinetic_energy(); }  // [epsilon]
   struct Potential {
-    double energy, pressure;  // [epsilon], [epsilon/sigma^3]; the virial's and the kinetic part
+    double energy, pressure;  // [epsilon], [epsilon/sigma^3]; pressure with its kinetic part
   };
-  Potential potential();  // one evaluation
+  Potential potential();  // costs one evaluation
 
  private:
   Configuration start_;
@@ -52,10 +53,10 @@ class MovingFluid {
   AlignedArray gradient_;
 };
 
-// Particles on a lattice of this density, with Maxwellian velocities.
+// Particles on an fcc lattice of this density, with velocities from Maxwell's distribution.
 FluidState fluid_on_lattice(const PairModel& model, std::size_t particles, double density, double temperature, std::uint64_t seed);
 
-// Rescales velocities to the temperature every 50 steps of the first half; the second half runs at constant energy.
+// Rescales velocities to the temperature every 50 steps during the first half. The second half runs at constant energy.
 void equilibrate(MovingFluid& fluid, double temperature, std::uint64_t steps);
 
 }  // namespace lanescape
