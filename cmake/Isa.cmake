@@ -53,14 +53,19 @@ endforeach()
 set(LANESCAPE_INTERNAL_HEADERS ${PROJECT_BINARY_DIR}/generated_internal)
 configure_file(${PROJECT_SOURCE_DIR}/cmake/instruction_sets.hpp.in ${LANESCAPE_INTERNAL_HEADERS}/dispatch/instruction_sets.hpp @ONLY)
 
-# lanescape_add_isa_objects(<name> <sources>): an object library <name>_<isa> per instruction set.
+# lanescape_add_isa_objects(<name> <sources>): an object library <name>_<isa> per instruction set. The kernels' come first: the others
+# take their precompiled header.
 function(lanescape_add_isa_objects name)
   foreach(isa IN LISTS LANESCAPE_ISAS)
     set(target ${name}_${isa})
     add_library(${target} OBJECT ${ARGN})
     target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/kernels)
     target_compile_definitions(${target} PRIVATE LANESCAPE_ISA=${isa})
-    target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/kernels/simd/simd.hpp)  # all that xsimd and intrinsics declare
+    if(name STREQUAL "lanescape_kernels")
+      target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/kernels/simd/simd.hpp)  # all that xsimd and intrinsics declare
+    else()
+      target_precompile_headers(${target} REUSE_FROM lanescape_kernels_${isa})
+    endif()
     # No contraction: a product and a sum are fused where the source says so and nowhere else, so that the energies of two
     # kernels agree to the bit. Hidden symbols: code compiled for one processor must not leak into the rest of the program.
     target_compile_options(
