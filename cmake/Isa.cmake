@@ -10,11 +10,16 @@ foreach(line IN LISTS lines)
   list(GET fields 1 flags)
   list(GET fields 2 features)
   separate_arguments(LANESCAPE_ISA_FLAGS_${isa} UNIX_COMMAND "${flags}")
-  separate_arguments(LANESCAPE_ISA_FEATURES_${isa} UNIX_COMMAND "${features}")
+  separate_arguments(features UNIX_COMMAND "${features}")
+  set(LANESCAPE_ISA_SUPPORTED_${isa} true)  # a condition in C++
+  foreach(feature IN LISTS features)
+    string(APPEND LANESCAPE_ISA_SUPPORTED_${isa} " && __builtin_cpu_supports(\"${feature}\")")
+  endforeach()
   list(APPEND LANESCAPE_ALL_ISAS ${isa})
 endforeach()
 
-set(LANESCAPE_ISAS "" CACHE STRING "Instruction sets to compile the kernels for (${LANESCAPE_ALL_ISAS}); empty: all for this processor; native: the best of this machine")
+set(LANESCAPE_ISAS "" CACHE STRING
+    "Instruction sets to compile the kernels for (${LANESCAPE_ALL_ISAS}); empty: all of this architecture; native: the best of this machine")
 if(NOT LANESCAPE_ISAS)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
     set(LANESCAPE_ISAS ${LANESCAPE_ALL_ISAS})
@@ -26,16 +31,8 @@ if(NOT LANESCAPE_ISAS)
   endif()
 endif()
 if(LANESCAPE_ISAS STREQUAL "native")
-  # Selects the last one whose features /proc/cpuinfo lists.
-  file(STRINGS /proc/cpuinfo cpu_flags REGEX "^flags" LIMIT_COUNT 1)
-  string(REGEX REPLACE "[^a-z0-9_]+" ";" cpu_flags "${cpu_flags}")
-  foreach(isa IN LISTS LANESCAPE_ALL_ISAS)
-    set(missing ${LANESCAPE_ISA_FEATURES_${isa}})
-    list(REMOVE_ITEM missing ${cpu_flags})
-    if(NOT missing)
-      set(LANESCAPE_ISAS ${isa})
-    endif()
-  endforeach()
+  include(NativeIsa)
+  lanescape_native_isa(LANESCAPE_ISAS)
   message(STATUS "LANESCAPE_ISAS: native is ${LANESCAPE_ISAS}")
 endif()
 foreach(isa IN LISTS LANESCAPE_ISAS)
@@ -50,26 +47,27 @@ set(LANESCAPE_BUILT_ENTRIES "")
 foreach(isa IN LISTS LANESCAPE_ALL_ISAS)
   string(APPEND LANESCAPE_ALL_ENTRIES " ENTRY(${isa})")
   if(isa IN_LIST LANESCAPE_ISAS)
-    set(supported true)
-    foreach(feature IN LISTS LANESCAPE_ISA_FEATURES_${isa})
-      string(APPEND supported " && __builtin_cpu_supports(\"${feature}\")")
-    endforeach()
-    string(APPEND LANESCAPE_BUILT_ENTRIES " ENTRY(${isa}, ${supported})")
+    string(APPEND LANESCAPE_BUILT_ENTRIES " ENTRY(${isa}, ${LANESCAPE_ISA_SUPPORTED_${isa}})")
   endif()
 endforeach()
 set(LANESCAPE_INTERNAL_HEADERS ${PROJECT_BINARY_DIR}/generated_internal)
 configure_file(${PROJECT_SOURCE_DIR}/cmake/instruction_sets.hpp.in ${LANESCAPE_INTERNAL_HEADERS}/dispatch/instruction_sets.hpp @ONLY)
 
-# lanescape_add_isa_objects(<name> <sources>): an object library <name>_<isa> per instruction set.
+# lanescape_add_isa_objects(<name> <sources>): an object library <name>_<isa> per instruction set. The kernels' come first: the others
+# take their precompiled header.
 function(lanescape_add_isa_objects name)
   foreach(isa IN LISTS LANESCAPE_ISAS)
     set(target ${name}_${isa})
     add_library(${target} OBJECT ${ARGN})
     target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/kernels)
     target_compile_definitions(${target} PRIVATE LANESCAPE_ISA=${isa})
-    target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/kernels/simd/simd.hpp)  # xsimd and intrinsics
-    # No contraction: a product and a sum are fused only where the source says so, so the energies of two kernels agree to the bit.
-    # Hidden symbols: code compiled for one processor must not leak into the rest of the program.
+    if(name STREQUAL "lanescape_kernels")
+      target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/kernels/simd/simd.hpp)  # all that xsimd and intrinsics declare
+    else()
+      target_precompile_headers(${target} REUSE_FROM lanescape_kernels_${isa})
+    endif()
+    # No contraction: a product and a sum are fused where the source says so and nowhere else, so that the energies of two
+    # kernels agree to the bit. Hidden symbols: code compiled for one processor must not leak into the rest of the program.
     target_compile_options(
       ${target} PRIVATE ${LANESCAPE_ISA_FLAGS_${isa}} -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-exceptions -fno-rtti
                         -fvisibility=hidden -fvisibility-inlines-hidden)

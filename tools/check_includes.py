@@ -35,6 +35,8 @@ PROGRAM_STAGES = {"core", "configuration", "io", "dispatch", "insertion", "inter
 
 KERNEL_STANDARD_HEADERS = {"cstddef", "cstdint", "cmath", "type_traits", "utility"}
 VECTOR_LAYER = "kernels/simd/"
+# What a build of the kernels alone must not need.
+FILE_FORMATS = {"hdf5.h": ("src/io/", "tests/"), "toml++": ("src/io/", "tools/"), "nlohmann": ("tools/", "tests/"), "CLI": ("tools/",)}
 EIGEN_USERS = ("src/path/shortening", "src/observables/fits", "tests/")
 
 FOLDERS = ("kernels", "reference", "src", "tools", "bench", "bindings", "tests", "docs")
@@ -79,6 +81,9 @@ def refuse_outside(relative, name):
         return f"only {VECTOR_LAYER} sees xsimd and intrinsics"
     if name.split("/")[0] in ("Eigen", "unsupported") and not relative.startswith(EIGEN_USERS):
         return "Eigen is allowed in " + ", ".join(f"{user}*" for user in EIGEN_USERS)
+    users = FILE_FORMATS.get(name.split("/")[0])
+    if users and not relative.startswith(users):
+        return f"{name} is allowed in {', '.join(users)}"
     if name.startswith("kissfft") and not relative.startswith("src/observables/"):
         return "kissfft is allowed in src/observables/"
     return None
