@@ -73,7 +73,7 @@ TEST(LargeSystems, DynamicsOverAListFollowsThatOverAllPairs) {
   for (std::size_t k = 0; k < a.position().size(); ++k) ASSERT_NEAR(a.position()[k], b.position()[k], 1e-9) << k;
 }
 
-TEST(LargeSystems, DynamicsOverAListConservesEnergyThroughManyRenewals) {
+TEST(LargeSystems, DynamicsOverAListConservesEnergyThroughManyRebuilds) {
   const Liquid liquid;
   auto landscape = liquid.landscape();
   VelocityVerlet verlet = liquid.moving(landscape);
