@@ -74,11 +74,8 @@ void register_all() {
   for (const auto& [phi, potential] :
        {std::pair{0.30, Potential::harmonic}, std::pair{0.50, Potential::harmonic}, std::pair{0.50, Potential::cubic},
         std::pair{0.50, Potential::linear}, std::pair{0.57, Potential::harmonic}})
-    benchmark::RegisterBenchmark(fmt::format("hard_path/avoidance/phi:{:.2f}/{}", phi, to_string(potential)).c_str(), find_path,
-                                 phi, potential)
-        ->Iterations(1)
-        ->UseManualTime()
-        ->Unit(benchmark::kSecond);
+    register_run(fmt::format("hard_path/avoidance/phi:{:.2f}/{}", phi, to_string(potential)),
+                 [phi = phi, potential = potential](benchmark::State& state) { find_path(state, phi, potential); });
 }
 
 }  // namespace

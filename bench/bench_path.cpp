@@ -73,11 +73,8 @@ void find_path(benchmark::State& state, const PathMethod& method, ImageRule imag
 void register_all() {
   for (const char* word : {"contour", "escape"})
     for (const ImageRule images : {ImageRule::minimum, ImageRule::all})
-      benchmark::RegisterBenchmark(fmt::format("path/{}/{}", word, to_string(images)).c_str(),
-                                   [word, images](benchmark::State& state) { find_path(state, path_method(word), images); })
-          ->Iterations(1)
-          ->UseManualTime()
-          ->Unit(benchmark::kSecond);
+      register_run(fmt::format("path/{}/{}", word, to_string(images)),
+                   [word, images](benchmark::State& state) { find_path(state, path_method(word), images); });
 }
 
 }  // namespace

@@ -108,6 +108,12 @@ inline double seconds_per_vector_instruction(Isa isa) {
   return measured.emplace(isa, best).first->second;
 }
 
+// Registers a benchmark of one whole run that sets its own time.
+template <class Function>
+void register_run(const std::string& name, Function function) {
+  benchmark::RegisterBenchmark(name.c_str(), std::move(function))->Iterations(1)->UseManualTime()->Unit(benchmark::kSecond);
+}
+
 // The main function of a benchmark; returns 2 for unknown arguments.
 inline int run_benchmarks(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);

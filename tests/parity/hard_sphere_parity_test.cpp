@@ -13,6 +13,7 @@
 #include "verification/event_driven_checks.hpp"
 #include "verification/hard_sphere_cases.hpp"
 #include "verification/hard_sphere_checks.hpp"
+#include "wrong_kernels.hpp"
 
 namespace lanescape {
 namespace {
@@ -177,20 +178,15 @@ void calendar_late_in_one_lane(const CalendarView& calendar, std::size_t event, 
 }
 
 std::vector<std::string> failed_checks(const KernelTable& table) {
-  std::vector<std::string> failed;
-  for (const Deviation& deviation : verify_hard_spheres(table, small_cases()))
-    if (!deviation.passed()) failed.push_back(deviation.kernel);
-  for (const Deviation& deviation : verify_event_driven(table))
-    if (!deviation.passed()) failed.push_back(deviation.kernel);
-  return failed;
+  std::vector<Deviation> deviations = verify_hard_spheres(table, small_cases());
+  for (Deviation& deviation : verify_event_driven(table)) deviations.push_back(std::move(deviation));
+  return testing::failed_of(deviations);
 }
 
 TEST(HardSphereChecks, FailForTheKernelThatIsWrongAndForNoOther) {
   right = &kernel_table(available_isas().back());
   const auto failed_with = [](auto KernelTable::* kernel, auto replacement) {
-    KernelTable table = *right;
-    table.*kernel = replacement;
-    return failed_checks(table);
+    return failed_checks(testing::with_kernel(*right, kernel, +replacement));
   };
   using Names = std::vector<std::string>;
   EXPECT_EQ(failed_checks(*right), Names{});

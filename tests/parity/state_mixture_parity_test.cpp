@@ -9,6 +9,7 @@
 #include "dispatch/isa.hpp"
 #include "every_isa.hpp"
 #include "verification/state_mixture_checks.hpp"
+#include "wrong_kernels.hpp"
 
 namespace lanescape {
 namespace {
@@ -82,9 +83,7 @@ std::vector<std::string> failed_checks(const KernelTable& table) {
   std::vector<StateMixtureCase> few;
   for (const StateMixtureCase& one : every_case())
     if (one.name.starts_with("2 species, 2 states, every")) few.push_back(one);
-  std::vector<std::string> failed;
-  for (const Deviation& deviation : verify_state_mixtures(table, few))
-    if (!deviation.passed()) failed.push_back(deviation.kernel);
+  std::vector<std::string> failed = testing::failed_of(verify_state_mixtures(table, few));
   return failed;
 }
 
@@ -92,9 +91,7 @@ TEST(StateMixtureChecks, FailForWhatIsWrong) {
   right = &kernel_table(available_isas().back());
   EXPECT_EQ(failed_checks(*right), std::vector<std::string>{});
   const auto fails = [](auto KernelTable::* kernel, auto replacement, const std::string& check) {
-    KernelTable table = *right;
-    table.*kernel = replacement;
-    const auto failed = failed_checks(table);
+    const auto failed = failed_checks(testing::with_kernel(*right, kernel, +replacement));
     EXPECT_NE(std::find(failed.begin(), failed.end(), check), failed.end()) << check;
   };
   fails(&KernelTable::state_densities, densities_without_a_row, "state_densities");

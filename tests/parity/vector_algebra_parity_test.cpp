@@ -8,6 +8,7 @@
 #include "dispatch/isa.hpp"
 #include "every_isa.hpp"
 #include "verification/kernel_checks.hpp"
+#include "wrong_kernels.hpp"
 
 namespace lanescape {
 namespace {
@@ -83,19 +84,12 @@ void wrong_lengths(double* lengths, const double* a, const double* b, std::size_
   right->add_particle_lengths(lengths, a, b, slots);
 }
 
-std::vector<std::string> failed_checks(const KernelTable& table) {
-  std::vector<std::string> failed;
-  for (const Deviation& deviation : verify_vector_algebra(table))
-    if (!deviation.passed()) failed.push_back(deviation.kernel);
-  return failed;
-}
+std::vector<std::string> failed_checks(const KernelTable& table) { return testing::failed_of(verify_vector_algebra(table)); }
 
 TEST(VectorAlgebraChecks, FailForTheKernelThatIsWrongAndForNoOther) {
   right = &kernel_table(available_isas().back());
   const auto failed_with = [](auto KernelTable::* kernel, auto replacement) {
-    KernelTable table = *right;
-    table.*kernel = replacement;
-    return failed_checks(table);
+    return failed_checks(testing::with_kernel(*right, kernel, +replacement));
   };
   using Names = std::vector<std::string>;
   EXPECT_EQ(failed_checks(*right), Names{});
