@@ -49,4 +49,11 @@ void Mixture::check_species() const {
   }
 }
 
+void check_species(std::span<const int> species_of_particles, std::size_t count) {
+  for (std::size_t i = 0; i < species_of_particles.size(); ++i)
+    if (species_of_particles[i] < 0 || static_cast<std::size_t>(species_of_particles[i]) >= count)
+      throw_bad_input(fmt::format("particle {}: species {} is not allowed: the model has {}, numbered from 0", i,
+                                  species_of_particles[i], count));
+}
+
 }  // namespace lanescape

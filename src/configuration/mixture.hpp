@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,5 +27,8 @@ struct Mixture {
   // Throws Error(bad_input) unless there are species, each with a unique name, a mass above 0 and a fraction from 0 to 1.
   void check_species() const;
 };
+
+// Throws Error(bad_input) naming the first particle whose species is not from 0 to count - 1.
+void check_species(std::span<const int> species_of_particles, std::size_t count);
 
 }  // namespace lanescape

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "configuration/mixture.hpp"
 #include "core/padded.hpp"
 
 namespace lanescape {
@@ -54,6 +55,7 @@ ParticleLayout ParticleLayout::in_users_order(const Configuration& configuration
 }
 
 void ParticleLayout::assign(const std::vector<int>& species, std::size_t species_count, std::span<const std::size_t> particles) {
+  check_species(species, species_count);
   slot_of_.resize(species.size());
   blocks_.resize(species_count);
   for (const int s : species) ++blocks_[static_cast<std::size_t>(s)].count;

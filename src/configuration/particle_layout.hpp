@@ -15,7 +15,7 @@ namespace lanescape {
 // order; only this class translates.
 class ParticleLayout {
  public:
-  // Keeps the user's order within a species.
+  // Keeps the user's order within a species. All constructors throw what check_species() throws.
   ParticleLayout(const std::vector<int>& species, std::size_t species_count);
   // Sorts large systems (`sorted_from` particles or more) by position within a species, as neighbour lists sort their
   // points: particles near in space are then near in memory, until they diffuse away.

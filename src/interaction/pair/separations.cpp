@@ -10,6 +10,7 @@
 namespace lanescape {
 
 void check_separations(const Configuration& configuration, const PairModel& model) {
+  check_species(configuration.species, model.species.size());
   for (std::size_t k = 0; k < configuration.positions.size(); ++k)
     if (!std::isfinite(configuration.positions[k]))
       throw_bad_input(fmt::format("particle {}: coordinate {} is not finite", k / 3, configuration.positions[k]));

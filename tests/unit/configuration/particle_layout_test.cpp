@@ -10,6 +10,8 @@
 #include <set>
 #include <vector>
 
+#include "refusal.hpp"
+
 namespace lanescape {
 namespace {
 
@@ -24,6 +26,13 @@ std::vector<int> mixed(std::size_t count) {
   std::vector<int> species;
   for (std::size_t i = 0; i < count; ++i) species.push_back(i % 5 == 3 ? 1 : 0);
   return species;
+}
+
+TEST(ParticleLayout, RefusesSpeciesThatAreNotThere) {
+  EXPECT_EQ(testing::refusal([] { ParticleLayout({0, 1, 2}, 2); }),
+            "particle 2: species 2 is not allowed: the model has 2, numbered from 0");
+  EXPECT_EQ(testing::refusal([] { ParticleLayout({0, -1}, 2); }),
+            "particle 1: species -1 is not allowed: the model has 2, numbered from 0");
 }
 
 TEST(ParticleLayout, SpeciesLieInPaddedBlocksInTheirOwnOrder) {

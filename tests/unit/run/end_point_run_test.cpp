@@ -120,12 +120,23 @@ TEST(EndPointRun, EndsOfHardSpheresDoNotOverlap) {
 TEST(EndPointRun, RefusesStartsThatOverlapAndHardSpheresWithoutTheirOwnRun) {
   SilentMonitor monitor;
   Soft soft;
-  EXPECT_NE(refusal([&] { run_end_points(hard_sphere(), soft.start, soft.options, choose_isa("auto"), {}, monitor); }), "");
+  EXPECT_EQ(refusal([&] { run_end_points(hard_sphere_binary(), soft.start, soft.options, choose_isa("auto"), {}, monitor); }),
+            "model hard-sphere-binary has no soft landscape: its spheres are hard");
   std::copy_n(soft.start.positions.begin(), 3, soft.start.positions.begin() + 3);
   EXPECT_EQ(refusal([&] { soft.run({}, monitor); }).rfind("particles 0 and 1 overlap", 0), 0u);
   Hard hard;
   std::copy_n(hard.start.positions.begin(), 3, hard.start.positions.begin() + 3);
   EXPECT_EQ(refusal([&] { hard.run({}, monitor); }).rfind("particles 0 and 1 overlap", 0), 0u);
+}
+
+TEST(EndPointRun, RefusesSpeciesThatTheModelDoesNotHave) {
+  SilentMonitor monitor;
+  const Soft soft;
+  for (const Model& model : {Model(lennard_jones()), Model(hard_sphere())})
+    EXPECT_NE(refusal([&] {
+                run_end_points(model, soft.start, soft.options, choose_isa("auto"), {}, monitor);
+              }).find("species 1 is not allowed: the model has 1, numbered from 0"),
+              std::string::npos);
 }
 
 TEST(EndPointRun, RefusesOptionsOutOfRange) {
