@@ -42,7 +42,7 @@ struct EvenPowers : TruncatedForm<V> {
             unit};
   }
 
-  // x^n. Its branches are the same for all pairs of a loop, hence foreseen.
+  // x^n. Its branches go the same way for all pairs of a loop, so the processor predicts them.
   static LANESCAPE_INLINE V power(V x, unsigned n) {
     if (n == 0) return broadcast<V>(1);
     for (; n % 2 == 0; n /= 2) x = x * x;

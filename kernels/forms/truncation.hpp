@@ -2,7 +2,7 @@
 
 #include "loops/pair_vector.hpp"
 
-// What forms share that take any truncation.
+// Shared by the forms that take any truncation.
 namespace lanescape::kernels::LANESCAPE_ISA {
 
 // v in range, 0 out of it.
@@ -11,8 +11,8 @@ LANESCAPE_INLINE V masked(M in_range, V v) {
   return select(in_range, v, zero<V>());
 }
 
-// What a truncation adds to u(r): c0 + c1 r + c2 r^2 + c4 r^4, coefficients 0 to 3 of a form. Which of them there are is the same for
-// all pairs of a loop, so that its branches are foreseen.
+// What a truncation adds to u(r): c0 + c1 r + c2 r^2 + c4 r^4, coefficients 0 to 3 of a form. All
+// pairs of a loop have the same kind, so the processor predicts the branches on it.
 template <class V>
 struct Correction {
   V c0, minus_c1, minus_two_c2, minus_four_c4;
@@ -74,7 +74,7 @@ struct TruncatedForm {
   }
 };
 
-// Base of those whose energy does not follow from a few sums of powers: energy and virial are added up pair by pair.
+// Base of forms whose energy does not follow from a few sums of powers: energy and virial are added up pair by pair.
 template <class V>
 struct EnergyForm : TruncatedForm<V> {
   // Of one vector of pairs, zero out of range: u(r) and -u'(r)/r without the truncation; r^2. Lengths in sigma.

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/archive.hpp"
+#include "core/enum_words.hpp"
 #include "dispatch/vector_algebra.hpp"
 #include "path/path_statistics.hpp"
 #include "path/recorder.hpp"
@@ -17,21 +18,12 @@ namespace lanescape {
 // How a search for a path ended; `running` while it has not.
 enum class Outcome : std::uint64_t { running, reached, step_limit, stalled, interrupted };
 
-inline const char* to_string(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::running:
-      return "running";
-    case Outcome::reached:
-      return "reached";
-    case Outcome::step_limit:
-      return "step_limit";
-    case Outcome::stalled:
-      return "stalled";
-    case Outcome::interrupted:
-      return "interrupted";
-  }
-  return "";
-}
+inline constexpr EnumWord<Outcome> outcome_words[] = {{Outcome::running, "running"},
+                                                      {Outcome::reached, "reached"},
+                                                      {Outcome::step_limit, "step_limit"},
+                                                      {Outcome::stalled, "stalled"},
+                                                      {Outcome::interrupted, "interrupted"}};
+inline const char* to_string(Outcome outcome) { return word_of(outcome_words, outcome); }
 
 struct FinderOptions {
   std::uint64_t max_steps = 1'000'000'000;

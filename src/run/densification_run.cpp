@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/option_checks.hpp"
 #include "dispatch/isa.hpp"
 #include "interaction/pair/probe_field.hpp"
 
@@ -168,15 +169,11 @@ class Densification final : public ResumableWork {
 }  // namespace
 
 void DensificationOptions::check(const FluidState& start) const {
-  const auto positive = [](const char* what, double value) {
-    if (!(value > 0.0) || !std::isfinite(value))
-      throw_bad_input(fmt::format("{} {} is not allowed: it must be finite and above 0", what, value));
-  };
   const Box& box = start.configuration.box;
   const double density = static_cast<double>(start.configuration.size()) / box.volume();
-  positive("temperature", temperature);
-  positive("time step", time_step);
-  positive("rate of density", rate);
+  check_positive("temperature", temperature);
+  check_positive("time step", time_step);
+  check_positive("rate of density", rate);
   if (time_step > 0.02)
     throw_bad_input(fmt::format("time step {} is not allowed: at most 0.02, or energy is not conserved", time_step));
   if (!(final_density <= 2.0) || std::llround(final_density * box.volume()) <= static_cast<long long>(start.configuration.size()))
@@ -184,7 +181,7 @@ void DensificationOptions::check(const FluidState& start) const {
         fmt::format("final density {} is not allowed: it must be above the fluid's, {}, by a particle at least, and at "
                     "most 2",
                     final_density, density));
-  if (rows == 0) throw_bad_input("number of rows must be at least 1");
+  check_at_least_one("number of rows", rows);
   const double most =
       4.0 * density * std::sqrt(std::numbers::pi * temperature) / (correlation_length * correlation_length * correlation_length);
   if (rate > most)

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/option_checks.hpp"
 #include "core/overloaded.hpp"
 #include "interaction/pair/pair_interaction.hpp"
 #include "interaction/sphere/check_overlap.hpp"
@@ -214,7 +215,7 @@ DiffusionRunResult run(const SourceModel& model, const Configuration& start, con
 
 void DiffusionRunOptions::check() const {
   window.check();
-  if (trajectories == 0) throw_bad_input("number of trajectories must be at least 1");
+  check_at_least_one("number of trajectories", trajectories);
 }
 
 DiffusionRunOptions source_diffusion_options(std::size_t species, double packing_fraction) {

@@ -1,13 +1,11 @@
 #include "run/insertion_run.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "configuration/particle_layout.hpp"
 #include "core/error.hpp"
+#include "core/option_checks.hpp"
 #include "core/random.hpp"
 #include "core/stopwatch.hpp"
 #include "interaction/pair/pair_interaction.hpp"
@@ -72,13 +70,9 @@ void remove(InsertionRunResult& run, const PairModel& model, const InsertionRunO
 
 void InsertionRunOptions::check(const PairModel& model, const Configuration& fluid) const {
   if (fluid.size() == 0) throw_bad_input("insertion into an empty fluid is not allowed: at least one particle is needed");
-  if (temperature && (!(*temperature > 0.0) || !std::isfinite(*temperature)))
-    throw_bad_input(fmt::format("temperature {} is not allowed: it must be finite and above 0", *temperature));
-  if (!(diameter > 0.0) || !std::isfinite(diameter))
-    throw_bad_input(fmt::format("diameter {} is not allowed: it must be finite and above 0", diameter));
-  InsertionOptions checked = insertion;
-  if (mean_target) checked.target = mean_excess_energy(model, fluid, available_isas().front());
-  checked.check(fluid.box);
+  if (temperature) check_positive("temperature", *temperature);
+  check_positive("diameter", diameter);
+  insertion.check(fluid.box);
   ProbeField(model, {fluid.box, {}, {}}, species, kernel_table(available_isas().front()),
              diameter);  // throws what box and model do not allow
 }

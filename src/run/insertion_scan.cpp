@@ -9,6 +9,7 @@
 
 #include "configuration/lattice.hpp"
 #include "core/error.hpp"
+#include "core/option_checks.hpp"
 #include "insertion/holes.hpp"
 #include "insertion/search.hpp"
 #include "interaction/pair/pair_interaction.hpp"
@@ -231,19 +232,15 @@ class Scan final : public ResumableWork {
 }  // namespace
 
 void InsertionScanOptions::check(const PairModel& model) const {
-  const auto at_least_one = [](const char* what, std::uint64_t value) {
-    if (value == 0) throw_bad_input(fmt::format("{} must be at least 1", what));
-  };
-  at_least_one("number of configurations", configurations);
-  at_least_one("number of places", count);
-  at_least_one("number of states", states.size());
+  check_at_least_one("number of configurations", configurations);
+  check_at_least_one("number of places", count);
+  check_at_least_one("number of states", states.size());
   if (!(time_step > 0.0 && time_step <= 0.02))
     throw_bad_input(fmt::format("time step {} is not allowed: above 0 and at most 0.02, or energy is not conserved", time_step));
   if (target == ScanTarget::chemical_potential && widom_probes == 0)
     throw_bad_input("a target of the chemical potential needs Widom probes: their number must be at least 1");
   for (const State& state : states) {
-    if (!(state.temperature > 0.0) || !std::isfinite(state.temperature))
-      throw_bad_input(fmt::format("temperature {} is not allowed: it must be finite and above 0", state.temperature));
+    check_positive("temperature", state.temperature);
     const Configuration start = fcc_start(model, particles, state.density, seed);
     check_cutoff(model, start.box);
     insertion.check(start.box);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/option_checks.hpp"
 #include "run/path_search.hpp"
 
 namespace lanescape {
@@ -78,10 +79,8 @@ struct Searches {
 }  // namespace
 
 void PathRunOptions::check() const {
-  if (method->direct_step && !(step_length() > 0.0 && step_length() <= 1.0))
-    throw_bad_input(fmt::format("step {} is not allowed: above 0 and at most 1", step_length()));
-  if (!(avoidance_step > 0.0 && avoidance_step <= 0.1))
-    throw_bad_input(fmt::format("avoidance step {} is not allowed: above 0 and at most 0.1", avoidance_step));
+  if (method->direct_step) check_positive("step", step_length(), 1.0);
+  check_positive("avoidance step", avoidance_step, 0.1);
   if (landscape_energy && method->is_hard) throw_bad_input("hard spheres have no landscape energy: without it only");
   if (landscape_energy && !std::isfinite(*landscape_energy))
     throw_bad_input(fmt::format("landscape energy {} is not allowed: it must be finite", *landscape_energy));

@@ -55,7 +55,7 @@ class PathSearch : public ResumableWork {
   bool finished() const override { return outcome() != Outcome::running; }
   void advance(RunMonitor& monitor) override;
   bool save_due() const override { return steps() % (chunk_ * chunks_per_checkpoint) == 0; }
-  // The path as far as it has come. Deviations of hard spheres are tested once more, without a list.
+  // The path as far as it has come. Its frames of hard spheres are tested for overlaps again, without a list.
   PathResult result();
 
  protected:

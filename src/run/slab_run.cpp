@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/option_checks.hpp"
 #include "dynamics/langevin.hpp"
 #include "landscape/state_mixture_landscape.hpp"
 
@@ -103,13 +104,9 @@ class SlabWork final : public ResumableWork {
 }  // namespace
 
 void SlabOptions::check() const {
-  const auto need = [](const char* what, double value, double most) {
-    if (!(value > 0.0 && value <= most))
-      throw_bad_input(fmt::format("{} {} is not allowed: above 0 and at most {}", what, value, most));
-  };
-  need("width", width, 1e4);
-  need("length", length, 1e5);
-  need("start density", start_density, 1.5);
+  check_positive("width", width, 1e4);
+  check_positive("length", length, 1e5);
+  check_positive("start density", start_density, 1.5);
   if (particles == 0 || particles > 4'000'000)
     throw_bad_input(fmt::format("{} particles are not allowed: from 1 to 4000000", particles));
   if (interval == 0) throw_bad_input("interval 0 is not allowed: at least one step between samples");

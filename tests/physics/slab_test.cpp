@@ -5,24 +5,14 @@
 #include <cmath>
 
 #include "dispatch/isa.hpp"
+#include "small_slab.hpp"
 
 namespace lanescape {
 namespace {
 
-SlabOptions small_slab() {
-  SlabOptions options;
-  options.particles = 512;
-  options.width = 8.0;
-  options.length = 24.0;
-  options.equilibration_steps = 3000;
-  options.sampling_steps = 2000;
-  options.bins = 24;
-  return options;
-}
-
 TEST(Slab, LiquidIsInTheDenseStateAndVapourInTheOther) {
   SilentMonitor monitor;
-  const SlabRunResult run = run_slab(liquid_vapour(), small_slab(), choose_isa("auto"), {}, monitor);
+  const SlabRunResult run = run_slab(liquid_vapour(), testing::small_slab(3000, 2000), choose_isa("auto"), {}, monitor);
   const SlabProfiles& profiles = run.profiles;
   EXPECT_EQ(profiles.samples, 100U);
   EXPECT_NEAR(run.temperature, 0.8, 0.04);

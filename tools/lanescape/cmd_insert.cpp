@@ -120,12 +120,13 @@ Json run_insert(InsertState& state, Options& options, int& status) {
   const PairModel model = state.system.resolve_pair_model("insert");
   if (model.form->has_diameters && (state.scan || state.densify))
     throw_bad_input(
-        fmt::format("{} is not allowed with model {}: its particles have diameters of their own, insertion into FILE is there",
+        fmt::format("{} is not allowed with model {}: its particles have diameters; only insertion into FILE is allowed",
                     state.scan ? "--scan" : "--densify", model.name));
   if (state.scan && state.densify) throw_bad_input("--scan and --densify are not allowed together");
+  const std::string with_model = fmt::format("with model {}", model.name);
   options.settle(joined({state.system.kinds(model, state.file.empty()),
                          kinds_of(state),
-                         {kind_if(model.form->has_diameters, own_diameters, "", fmt::format("with model {}", model.name))}}));
+                         {kind_if(model.form->has_diameters, own_diameters, with_model, with_model)}}));
   Json result = state.scan      ? run_scan(state, options, model, isa, status)
                 : state.densify ? run_growth(state, options, model, isa, status)
                                 : run_into_file(state, options, model, isa, status);

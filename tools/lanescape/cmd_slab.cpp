@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include "configuration/model_traits.hpp"
-#include "core/error.hpp"
 #include "io/extended_xyz.hpp"
 #include "plot.hpp"
 #include "result_table.hpp"
@@ -19,13 +17,6 @@ struct SlabState {
   bool plot = false;
 };
 
-StateMixtureModel resolve_states(const SystemOptions& system) {
-  const Model resolved = system.resolve();
-  if (const auto* states = std::get_if<StateMixtureModel>(&resolved)) return *states;
-  throw_bad_input(fmt::format("slab: model {} is made of {}: a model of kind ucg is needed", mixture_of(resolved).name,
-                              traits_of(resolved).particles));
-}
-
 ResultTable table_of(const SlabProfiles& profiles) {
   ResultTable table;
   for (std::size_t bin = 0; bin < profiles.z.size(); ++bin) {
@@ -41,7 +32,7 @@ ResultTable table_of(const SlabProfiles& profiles) {
 Json run_slab_command(SlabState& state, Options& options, int& status) {
   state.common.check();
   const Isa isa = state.common.resolve_isa();
-  const StateMixtureModel model = resolve_states(state.system);
+  const StateMixtureModel model = state.system.resolve_state_mixture("slab");
   options.settle(joined({state.system.kinds(model, true), {state.common.folder_kind()}}));
   state.slab.seed = state.common.seed;
   state.slab.threads = state.common.threads;

@@ -70,6 +70,8 @@ struct SystemOptions {
   void check_precision_in(const Model& model, const Box& box, double skin = default_skin) const;
   // The model as one of pair potentials; the message that refuses others names the subcommand.
   PairModel resolve_pair_model(const char* subcommand) const;
+  // Likewise as one of sites in states.
+  StateMixtureModel resolve_state_mixture(const char* subcommand) const;
 };
 
 // The first frame of a file of soft particles. Throws Error(bad_input) naming the file if any frame is malformed or the first one

@@ -144,17 +144,27 @@ void SystemOptions::check_precision_in(const Model& model, const Box& box, doubl
              model);
 }
 
+namespace {
+
+// The model if it is of the kind wanted; refuses every other kind.
+template <class Wanted>
+Wanted only(const Model& resolved, const char* subcommand, const char* allowed) {
+  return std::visit(Overloaded{[](const Wanted& model) { return model; },
+                               [&](const Mixture& other) -> Wanted {
+                                 throw_bad_input(fmt::format("{}: model {} is made of {}: {}", subcommand, other.name,
+                                                             traits_of(resolved).particles, allowed));
+                               }},
+                    resolved);
+}
+
+}  // namespace
+
 PairModel SystemOptions::resolve_pair_model(const char* subcommand) const {
-  const Model resolved = resolve();
-  const auto refuse = [&](const Mixture& model) -> PairModel {
-    throw_bad_input(
-        fmt::format("{}: model {} is made of {}: allowed are models of pair potentials, kob-andersen, lennard-jones and others",
-                    subcommand, model.name, traits_of(resolved).particles));
-  };
-  return std::visit(
-      Overloaded{[](const PairModel& soft) { return soft; }, [&](const HardSphereModel& hard) { return refuse(hard); },
-                 [&](const StateMixtureModel& states) { return refuse(states); }},
-      resolved);
+  return only<PairModel>(resolve(), subcommand, "allowed are models of pair potentials, kob-andersen, lennard-jones and others");
+}
+
+StateMixtureModel SystemOptions::resolve_state_mixture(const char* subcommand) const {
+  return only<StateMixtureModel>(resolve(), subcommand, "a model of kind ucg is needed");
 }
 
 void check_separations_in(const std::string& file, const Configuration& configuration, const Model& model) {

@@ -7,25 +7,15 @@
 
 #include "dispatch/isa.hpp"
 #include "refusal.hpp"
+#include "small_slab.hpp"
 #include "stopping_monitor.hpp"
 
 namespace lanescape {
 namespace {
 
-SlabOptions small_slab() {
-  SlabOptions options;
-  options.particles = 512;
-  options.width = 8.0;
-  options.length = 24.0;
-  options.equilibration_steps = 100;
-  options.sampling_steps = 100;
-  options.bins = 24;
-  return options;
-}
-
 TEST(SlabRun, DoesNotDependOnTheNumberOfThreads) {
   SilentMonitor monitor;
-  SlabOptions options = small_slab();
+  SlabOptions options = testing::small_slab(100, 100);
   options.equilibration_steps = options.sampling_steps = 20;  // few steps, because two threads on one busy core are slow
   const SlabRunResult one = run_slab(liquid_vapour(), options, choose_isa("auto"), {}, monitor);
   options.threads = 2;
@@ -38,7 +28,7 @@ TEST(SlabRun, RefusesWhatDoesNotFit) {
   using testing::refusal;
   SilentMonitor monitor;
   const auto refused = [&](auto change) {
-    SlabOptions options = small_slab();
+    SlabOptions options = testing::small_slab(100, 100);
     change(options);
     return refusal([&] { run_slab(liquid_vapour(), options, choose_isa("auto"), {}, monitor); });
   };
@@ -49,7 +39,7 @@ TEST(SlabRun, RefusesWhatDoesNotFit) {
 }
 
 TEST(SlabRun, EndsEarlyWithTheSamplesSoFarWhenAskedTo) {
-  SlabOptions options = small_slab();
+  SlabOptions options = testing::small_slab(100, 100);
   options.sampling_steps = 200;
   for (const auto& [looks, samples] : {std::pair{1, 0U}, {2, 5U}}) {  // a query every hundred steps, a sample every twenty
     testing::StoppingMonitor monitor(looks);
