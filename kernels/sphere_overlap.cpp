@@ -35,22 +35,27 @@ inline bool within(const SphereInput& in, double reach, std::size_t i, std::size
 }
 
 // Fills the scratch arrays and writes to `scale` the factors from fractions to the filter's unit of length. In a cube that unit is
-// the fraction itself and the factors are 1.
-void prepare(const SphereInput& in, double reach, float* scale) noexcept {
+// the fraction itself and the factors are 1. Returns whether all coordinates are finite.
+bool prepare(const SphereInput& in, double reach, float* scale) noexcept {
   const bool cubic = in.box[0] == in.box[1] && in.box[1] == in.box[2];
   const double longest =
       in.box[0] < in.box[1] ? (in.box[1] < in.box[2] ? in.box[2] : in.box[1]) : (in.box[0] < in.box[2] ? in.box[2] : in.box[0]);
   const double per_sigma = whole_box / longest;
+  Vector sum = broadcast(0.0);  // not finite where a coordinate is not
   for (std::size_t axis = 0; axis < 3; ++axis) {
     scale[axis] = cubic ? 1.0F : static_cast<float>(in.box[axis] / longest);
     const Vector inverse = broadcast(1.0 / in.box[axis]);
-    for (std::size_t i = 0; i < in.slots; i += lanes)
-      store_fractions(in.fractions + axis * in.float_slots + i, load(in.positions + axis * in.slots + i) * inverse);
+    for (std::size_t i = 0; i < in.slots; i += lanes) {
+      const Vector scaled = load(in.positions + axis * in.slots + i) * inverse;
+      sum += scaled;
+      store_fractions(in.fractions + axis * in.float_slots + i, scaled);
+    }
     for (std::size_t i = in.slots; i < in.float_slots; ++i) in.fractions[axis * in.float_slots + i] = 0;
   }
   for (std::size_t i = 0; i < in.slots; ++i)
     in.reaches[i] = static_cast<float>((in.radii[i] + 0.5 * reach) * per_sigma * (1.0 + relative_margin) + fraction_margin);
   for (std::size_t i = in.slots; i < in.float_slots; ++i) in.reaches[i] = static_cast<float>(__builtin_nan(""));
+  return 0.0 * reduce_add(sum) == 0.0;
 }
 
 // Bits of the columns in one vector that may be within reach of row i.
@@ -67,7 +72,8 @@ inline std::uint32_t near_columns(const SphereInput& in, const float* scale, std
   return bits(less(squared, range * range));
 }
 
-// Calls visit(i, j), i < j, for every pair that passes the filter, until a call returns true.
+// Calls visit(i, j), i < j, for every pair that passes the filter, until a call returns true. True also where coordinates are not
+// finite.
 template <bool cubic, class Visit>
 inline bool any_near_pair(const SphereInput& in, const float* scale, Visit visit) noexcept {
   const auto each = [&](std::uint32_t mask, std::size_t i, std::size_t j) {
@@ -100,7 +106,7 @@ inline bool any_near_pair(const SphereInput& in, const float* scale, Visit visit
 template <class Visit>
 inline bool any_near_pair(const SphereInput& in, double reach, Visit visit) noexcept {
   float scale[3];
-  prepare(in, reach, scale);
+  if (!prepare(in, reach, scale)) return true;
   const bool cubic = in.box[0] == in.box[1] && in.box[1] == in.box[2];
   return cubic ? any_near_pair<true>(in, scale, visit) : any_near_pair<false>(in, scale, visit);
 }
@@ -113,14 +119,14 @@ bool sphere_any_overlap(const SphereInput& in) noexcept {
 
 std::size_t sphere_pairs_within(const SphereInput& in, double reach, SpherePair* out, std::size_t capacity) noexcept {
   std::size_t count = 0;
-  any_near_pair(in, reach, [&](std::size_t i, std::size_t j) {
+  const bool broken = any_near_pair(in, reach, [&](std::size_t i, std::size_t j) {
     if (within(in, reach, i, j)) {
       if (count < capacity) out[count] = {static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)};
       ++count;
     }
     return false;
   });
-  return count;
+  return broken ? sphere_pairs_broken : count;
 }
 
 double sphere_smallest_gap(const SphereInput& in) noexcept {

@@ -73,9 +73,13 @@ void add_particle_lengths(double* lengths, const double* a, const double* b, std
 
 double largest_displacement_squared(const double* a, const double* b, std::size_t slots, std::size_t begin,
                                     std::size_t end) noexcept {
+  // The maximum would forget what is not a number; the minimum makes it infinite.
+  const Vector infinite = broadcast(__builtin_inf());
   Vector largest = broadcast(0.0);
-  for (std::size_t i = begin; i < end; i += lanes) {
-    largest = maximum(largest, squared_displacement(a, b, slots, i));
+  for (std::size_t i = begin; i < end; i += slot_padding) {
+#pragma GCC unroll 4
+    for (std::size_t k = 0; k < slot_padding; k += lanes)
+      largest = maximum(largest, minimum(squared_displacement(a, b, slots, i + k), infinite));
   }
   return reduce_max(largest);
 }

@@ -186,16 +186,20 @@ LANESCAPE_INLINE void tile_against_block(const Columns& columns, const SpeciesBl
   add_sums(totals, u, sums);
 }
 
-// Positions in box lengths, and no gradient yet.
+// Positions in box lengths, and no gradient yet. Returns their sum: not finite where a position is not, which masks would hide.
 template <Output output>
-LANESCAPE_INLINE void start_all_pairs(const PairInput& in, double* gradient) {
+LANESCAPE_INLINE Vector start_all_pairs(const PairInput& in, double* gradient) {
+  Vector sum = broadcast(0.0);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const Vector inverse_length = broadcast(1.0 / in.box[axis]);
     for (std::size_t i = axis * in.slots; i < (axis + 1) * in.slots; i += lanes) {
-      store(in.scratch + i, load(in.positions + i) * inverse_length);
+      const Vector scaled = load(in.positions + i) * inverse_length;
+      sum += scaled;
+      store(in.scratch + i, scaled);
       if constexpr (has_gradient(output)) store(gradient + i, broadcast(0.0));
     }
   }
+  return sum;
 }
 
 // The box with the shells of images that a rule needs.
@@ -234,7 +238,7 @@ LANESCAPE_INLINE void tile_against_all(const PairInput& in, std::size_t a, std::
 
 template <class Form, Output output, LengthUnit unit>
 void all_pairs(const PairInput& in, double* gradient, PairOutput& out) {
-  start_all_pairs<output>(in, gradient);
+  const Vector sum_of_positions = start_all_pairs<output>(in, gradient);
   const Box box{{broadcast(in.box[0]), broadcast(in.box[1]), broadcast(in.box[2])}, {in.shells[0], in.shells[1], in.shells[2]}};
   Totals totals;
   for (std::size_t a = 0; a < in.block_count; ++a) {
@@ -261,7 +265,7 @@ void all_pairs(const PairInput& in, double* gradient, PairOutput& out) {
     const Vector inverse_length = broadcast(1.0 / in.box[0]);
     for (std::size_t i = 0; i < 3 * in.slots; i += lanes) store(gradient + i, load(gradient + i) * inverse_length);
   }
-  out.energy = reduce_add(totals.energy);
+  out.energy = reduce_add(multiply_add(sum_of_positions, broadcast(0.0), totals.energy));
   out.virial = reduce_add(totals.virial);
   if constexpr (output == Output::stress)
     for (std::size_t k = 0; k < 6; ++k) out.virial_tensor[k] = reduce_add(totals.tensor[k]);

@@ -23,6 +23,8 @@ struct SphereInput {
 // Over all pairs, the order of pairs (i, j) is that of (i / sphere_pair_rows, j / KernelTable::sphere_pair_columns, i, j): the
 // kernel's tiles. Sums over pairs have the same bits only in this order.
 inline constexpr std::size_t sphere_pair_rows = 4;
+// The number of pairs where coordinates are not finite.
+inline constexpr std::size_t sphere_pairs_broken = ~std::size_t{0};
 struct SpherePair {
   std::int32_t first, second;  // slots, first < second
 };

@@ -41,9 +41,6 @@ LennardJonesPotential::LennardJonesPotential(std::span<const int> species, const
   model.truncation = parse_truncation(options.truncation);
   model.images = parse_image_rule(options.images);
   model.check();
-  for (const double edge : box)
-    if (!(edge > 0.0 && edge < 1e9))
-      throw_bad_input(fmt::format("box edge {} is not allowed: it must be finite and above 0", edge));
   const int count = static_cast<int>(model.species.size());
   for (const int s : species)
     if (s < 0 || s >= count)

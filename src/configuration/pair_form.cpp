@@ -125,7 +125,7 @@ PairForm yukawa() {
   PairForm form;
   form.word = "yukawa";
   form.kernel = kernels::PairForm::yukawa;
-  form.numbers = {{"kappa", 1e-30, 1e30, false, {}}};
+  form.numbers = {{"kappa", 1e-30, 1e30, false, {}, true}};
   form.derivatives = [](const PairNumbers& p, double r) -> PairDerivatives {
     const double x = p.form[0] * r, u = p.epsilon * p.sigma / r * std::exp(p.form[0] * (p.sigma - r));
     return {u, -u * (1.0 + x), u * (2.0 + 2.0 * x + x * x)};
@@ -217,7 +217,7 @@ PairForm polydisperse() {
   PairForm form;
   form.word = "polydisperse";
   form.kernel = kernels::PairForm::polydisperse;
-  form.numbers = {{"non_additivity", 0.0, 1.0, false, 0.2}};
+  form.numbers = {{"non_additivity", 0.0, 1.0, false, 0.2, true}};
   form.range = range;
   form.has_diameters = true;
   static const double c0 = -28.0 * std::pow(range, -12), c2 = 48.0 * std::pow(range, -14), c4 = -21.0 * std::pow(range, -16);

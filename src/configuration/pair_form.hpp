@@ -44,6 +44,7 @@ struct FormNumber {
   double lowest, highest;
   bool even;                     // a whole, even number
   std::optional<double> preset;  // none: it has to be given
+  bool per_length = false;       // in 1/sigma; else without a dimension
 };
 
 // The same potential as another form has it.

@@ -7,6 +7,7 @@
 
 #include "core/enum_words.hpp"
 #include "core/error.hpp"
+#include "core/length_unit.hpp"
 
 namespace lanescape {
 
@@ -32,6 +33,10 @@ double PairModel::largest_cutoff() const {
   return largest;
 }
 
+double PairModel::length_unit() const {
+  return form->has_diameters ? 1.0 : length_unit_of(*std::max_element(sigma.begin(), sigma.end()));
+}
+
 PairCorrection PairModel::correction(const PairNumbers& numbers) const {
   if (truncation == Truncation::plain || truncation == Truncation::tail) return {};
   const double rc = cutoff * numbers.sigma, rc2 = rc * rc;
@@ -46,6 +51,9 @@ PairCorrection PairModel::correction(const PairNumbers& numbers) const {
 
 namespace {
 
+// Beyond these, twelfth powers or sums of energies leave the range of numbers.
+constexpr double least_sigma = 1e-100, greatest_sigma = 1e100, least_sigma_ratio = 1e-12, greatest_epsilon = 1e100;
+
 bool takes_equivalent(const PairModel& model) {
   const bool more_than_shift = model.truncation == Truncation::shifted_force || model.truncation == Truncation::smooth;
   return more_than_shift && model.form->truncated_as.word != nullptr;
@@ -57,6 +65,15 @@ const PairForm& PairModel::kernel_form() const { return takes_equivalent(*this) 
 
 std::span<const double> PairModel::kernel_numbers() const {
   return takes_equivalent(*this) ? std::span<const double>(form->truncated_as.numbers) : form_numbers;
+}
+
+PairModel PairModel::in_unit(double unit) const {
+  PairModel model = *this;
+  for (std::size_t k = 0; k < form->numbers.size(); ++k)
+    if (form->numbers[k].per_length) model.form_numbers[k] *= unit;
+  if (!form->has_diameters)
+    for (double& s : model.sigma) s /= unit;
+  return model;
 }
 
 PairDerivatives PairModel::derivatives(const PairNumbers& numbers, double r) const {
@@ -71,7 +88,7 @@ void PairModel::check_form() const {
   if (form_numbers.size() != form->numbers.size())
     throw_bad_input(fmt::format("model {}: {} numbers of the potential {} are needed", name, form->numbers.size(), form->word));
   for (std::size_t k = 0; k < form_numbers.size(); ++k) {
-    const auto& [key, lowest, highest, even, preset] = form->numbers[k];
+    const auto& [key, lowest, highest, even, preset, per_length] = form->numbers[k];
     const double value = form_numbers[k];
     if (!(value >= lowest && value <= highest) || (even && std::remainder(value, 2.0) != 0.0))
       throw_bad_input(fmt::format("model {}: {} {} is not allowed: {} from {} to {} is needed", name, key, value,
@@ -83,6 +100,27 @@ void PairModel::check_form() const {
         fmt::format("cutoff {} is not allowed with the potential {}: it ends at {} sigma_ab", cutoff, form->word, form->range));
   if (truncation == Truncation::tail && (form->tail == nullptr || !std::isfinite(form->tail(numbers(0), cutoff).energy)))
     throw_bad_input(fmt::format("truncation tail is not allowed with the potential {}: it has no long-range integral", form->word));
+}
+
+void PairModel::check_range(const std::string& pair, double e, double s) const {
+  const double largest = *std::max_element(sigma.begin(), sigma.end());
+  if (!(e <= greatest_epsilon && s >= least_sigma && s <= greatest_sigma && s >= least_sigma_ratio * largest))
+    throw_bad_input(
+        fmt::format("pair {}: epsilon {} and sigma {} are not allowed: epsilon up to {} and sigma from {} to {} are, and "
+                    "at least {} of the largest, {}",
+                    pair, e, s, greatest_epsilon, least_sigma, greatest_sigma, least_sigma_ratio, largest));
+}
+
+void PairModel::check_truncation() const {
+  const PairModel reduced = in_unit(length_unit());
+  for (std::size_t ab = 0; ab < sigma.size(); ++ab) {
+    const PairCorrection c = reduced.correction(reduced.numbers(ab));
+    for (const double number : {c.c0, c.c1, c.c2, c.c4})
+      if (!(std::abs(number) <= greatest_epsilon))
+        throw_bad_input(
+            fmt::format("cutoff {} is not allowed: the potential {} is not a number there that a truncation could take off", cutoff,
+                        form->word));
+  }
 }
 
 void PairModel::check() const {
@@ -99,6 +137,7 @@ void PairModel::check() const {
       if (!(e >= 0.0) || !std::isfinite(e) || !(s > 0.0) || !std::isfinite(s))
         throw_bad_input(fmt::format("pair {}-{}: epsilon {} and sigma {} must be finite, epsilon at least 0 and sigma above 0",
                                     species[a].name, species[b].name, e, s));
+      check_range(species[a].name + "-" + species[b].name, e, s);
       if (form->has_diameters && s != 1.0)
         throw_bad_input(
             fmt::format("pair {}-{}: sigma {} is not allowed with the potential {}: 1 is needed, particles have diameters",
@@ -106,6 +145,7 @@ void PairModel::check() const {
       if (e != epsilon[pair(b, a)] || s != sigma[pair(b, a)])
         throw_bad_input(fmt::format("pair {}-{} differs from its mirror image", species[a].name, species[b].name));
     }
+  check_truncation();
 }
 
 PairModel kob_andersen() {

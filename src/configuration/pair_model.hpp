@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -40,11 +41,15 @@ struct PairModel : Mixture {
   PairNumbers numbers(std::size_t ab) const { return {epsilon[ab], sigma[ab], form_numbers}; }
   double cutoff_of(std::size_t ab) const { return cutoff * sigma[ab]; }  // [sigma]
   double largest_cutoff() const;                                         // of all pairs [sigma]
+  // The unit of length for its particles; 1 where they have diameters of their own [sigma].
+  double length_unit() const;
   // What the truncation adds to u(r) of a pair of species.
   PairCorrection correction(const PairNumbers& numbers) const;
   // The form whose kernels sum it up, and its numbers: `form` and form_numbers, but for some truncations.
   const PairForm& kernel_form() const;
   std::span<const double> kernel_numbers() const;
+  // The same model with lengths in another unit. Diameters of particles, where the form has them, change with it.
+  PairModel in_unit(double unit) const;
   // Of the truncated potential, below the cutoff.
   PairDerivatives derivatives(const PairNumbers& numbers, double r) const;
   // Throws Error(bad_input) unless species are sound, sizes match, matrices are symmetric and every number is finite and in range.
@@ -52,6 +57,8 @@ struct PairModel : Mixture {
 
  private:
   void check_form() const;
+  void check_range(const std::string& pair, double epsilon, double sigma) const;
+  void check_truncation() const;
 };
 
 // Kob and Andersen's 80:20 mixture, doi 10.1103/PhysRevE.51.4626; A is written Ni and B is written P.

@@ -68,6 +68,12 @@ void ParticleLayout::assign(const std::vector<int>& species, std::size_t species
   for (const std::size_t i : particles) slot_of_[i] = next[static_cast<std::size_t>(species[i])]++;
 }
 
+ParticleLayout ParticleLayout::in_unit(double unit) const {
+  ParticleLayout layout = *this;
+  for (double& diameter : layout.diameters_) diameter /= unit;
+  return layout;
+}
+
 AlignedArray ParticleLayout::to_slots(std::span<const double> interleaved) const {
   AlignedArray coordinates(dimension(), 0.0);
   for (std::size_t i = 0; i < size(); ++i)

@@ -32,6 +32,9 @@ class ParticleLayout {
   // One per slot, zero for padding; empty where the configuration has none [sigma].
   const AlignedArray& diameters() const { return diameters_; }
 
+  // The same layout with diameters in another unit of length.
+  ParticleLayout in_unit(double unit) const;
+
   // Convert 3N interleaved user coordinates to slots, and back.
   AlignedArray to_slots(std::span<const double> interleaved) const;
   std::vector<double> to_user(const AlignedArray& coordinates) const;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/length_unit.hpp"
 #include "core/overloaded.hpp"
 
 namespace lanescape {
@@ -75,7 +76,7 @@ double StateMixtureModel::size_of(std::size_t s, std::size_t t) const {
   for (std::size_t a = 0; a < states_of(s); ++a)
     for (std::size_t b = 0; b < states_of(t); ++b) {
       const double closest = std::visit(Overloaded{[](const LennardJones& lj) { return lj.sigma; },
-                                                   [](const Table& table) { return std::max(table.first, 1e-3); }},
+                                                   [](const Table& table) { return std::max(table.first, 4e-4 * table.last); }},
                                         potentials[potential_at(s, a, t, b)]);
       size = std::min(size, closest);
     }
@@ -89,6 +90,33 @@ double StateMixtureModel::reach(std::size_t s, std::size_t t) const {
   for (std::size_t a = 0; a < states_of(s); ++a)
     for (std::size_t b = 0; b < states_of(t); ++b) reach = std::max(reach, end_of(potentials[potential_at(s, a, t, b)], cutoff));
   return reach;
+}
+
+// By Lennard-Jones potentials; by reaches where there are tables only.
+double StateMixtureModel::length_unit() const {
+  constexpr double usual_cutoff = 2.5;
+  double largest = 0.0, reach_of_any = 0.0;
+  for (const Potential& potential : potentials)
+    if (const auto* lj = std::get_if<LennardJones>(&potential)) largest = std::max(largest, lj->sigma);
+  for (std::size_t k = 0; k < filter.size(); ++k)
+    reach_of_any = std::max(reach_of_any, reach(k / species.size(), k % species.size()));
+  return length_unit_of(largest > 0.0 ? largest : reach_of_any / usual_cutoff);
+}
+
+StateMixtureModel StateMixtureModel::in_unit(double unit) const {
+  StateMixtureModel model = *this;
+  for (States& of_species : model.states)
+    for (double* length : {&of_species.switching.threshold, &of_species.switching.width, &of_species.switching.cutoff})
+      *length /= unit;
+  for (Potential& potential : model.potentials)
+    std::visit(Overloaded{[unit](LennardJones& lj) { lj.sigma /= unit; },
+                          [unit](Table& table) {
+                            table.first /= unit;
+                            table.last /= unit;
+                          }},
+               potential);
+  model.cutoff /= unit;
+  return model;
 }
 
 double StateMixtureModel::end_of(const Potential& potential, double cutoff) {

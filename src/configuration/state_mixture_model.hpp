@@ -57,6 +57,10 @@ struct StateMixtureModel : Mixture {
   double size_of(std::size_t s, std::size_t t) const;
   // The distance up to which two sites of these species interact [sigma].
   double reach(std::size_t s, std::size_t t) const;
+  // The unit of length for its sites [sigma].
+  double length_unit() const;
+  // The same model with lengths in another unit.
+  StateMixtureModel in_unit(double unit) const;
   // Where a potential ends: a table at its last distance, Lennard-Jones at `cutoff` [sigma].
   static double end_of(const Potential& potential, double cutoff);
 

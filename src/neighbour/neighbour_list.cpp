@@ -48,15 +48,20 @@ NeighbourList::NeighbourList(const Box& box, const ParticleLayout& layout, const
       points_(box, layout, margins(reaches_, layout.blocks().size()), threads,
               coordinates == Coordinates::floating ? 0.0 : unit_for(reaches_, skin)),
       neighbours_(static_cast<std::size_t>(threads)) {
-  // Estimated for a fluid that fills the box evenly; otherwise the list grows.
+  for (const auto& block : layout.blocks()) counts_.push_back(static_cast<double>(block.count));
+}
+
+// Estimated for a fluid that fills the box evenly; otherwise the list grows.
+double NeighbourList::expected_per_row() const {
   constexpr double half_a_vector_of_padding = 0.5 * kernels::slot_padding, margin = 1.02;
-  const std::size_t species = layout.blocks().size();
+  const double particles = std::accumulate(counts_.begin(), counts_.end(), 0.0);
+  double expected = 0.0;
   for (std::size_t k = 0; k < reaches_.size(); ++k) {
-    const double rows = static_cast<double>(layout.blocks()[k / species].count) / static_cast<double>(layout.size() + 1);
-    const double density = static_cast<double>(layout.blocks()[k % species].count) / box.volume();
-    expected_per_row_ +=
-        margin * rows * (density * 4.0 / 3.0 * std::numbers::pi * std::pow(reaches_[k], 3) + half_a_vector_of_padding);
+    const double rows = counts_[k / counts_.size()] / (particles + 1.0),
+                 density = counts_[k % counts_.size()] / points_.box().volume();
+    expected += margin * rows * (density * 4.0 / 3.0 * std::numbers::pi * std::pow(reaches_[k], 3) + half_a_vector_of_padding);
   }
+  return expected;
 }
 
 kernels::NeighbourRows NeighbourList::rows_of(std::size_t block) const {
@@ -94,12 +99,13 @@ void NeighbourList::rebuild(const AlignedArray& positions) {
   half_skin_.rebuilt_at(positions);
   points_.sort(positions);
   cut_into_blocks();
+  const double expected_each = expected_per_row();
   for_each_part(threads_, [&](int part) {
     const auto p = static_cast<std::size_t>(part);
     std::size_t end = 0, rows = 0;
     for (std::size_t b = part_begin(blocks_.size(), part, threads_); b < part_begin(blocks_.size(), part + 1, threads_); ++b)
       rows += blocks_[b].row_count;
-    const auto expected = static_cast<std::size_t>(expected_per_row_ * static_cast<double>(rows));
+    const auto expected = static_cast<std::size_t>(expected_each * static_cast<double>(rows));
     if (neighbours_[p].size() < expected) neighbours_[p].resize(expected);
     for (std::size_t b = part_begin(blocks_.size(), part, threads_); b < part_begin(blocks_.size(), part + 1, threads_); ++b) {
       fill(blocks_[b], p, end);

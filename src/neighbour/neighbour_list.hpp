@@ -79,6 +79,7 @@ class NeighbourList {
   void fill(Block& block, std::size_t part, std::size_t begin);
   std::size_t without_own_images(std::uint32_t place, std::uint32_t* neighbours, std::size_t count) const;
   void share_out();
+  double expected_per_row() const;  // offsets, padding included
 
   const kernels::KernelTable* table_;
   std::size_t slots_;
@@ -90,7 +91,7 @@ class NeighbourList {
   PeriodicPoints points_;
   std::vector<Block> blocks_;
   std::vector<std::size_t> first_blocks_;
-  double expected_per_row_ = 0.0;                         // offsets, padding included
+  std::vector<double> counts_;                            // particles of each species
   std::vector<AlignedVector<std::uint32_t>> neighbours_;  // of all blocks that a part has made
   AlignedVector<std::uint32_t> lengths_;                  // of all blocks
   std::uint64_t rebuilds_ = 0;

@@ -9,6 +9,7 @@
 
 #include "configuration/particle_layout.hpp"
 #include "core/error.hpp"
+#include "core/float_environment.hpp"
 #include "neighbour/periodic_points.hpp"
 
 namespace lanescape {
@@ -67,7 +68,7 @@ class CandidateSearch {
     std::transform(positions.begin(), positions.end(), in_units.begin(), [&](double x) { return in_unit(x); });
     points_.sort(layout_.to_slots(in_units));
     boxes_.reserve(points_.size());
-    for (std::size_t k = 0; k < points_.size(); ++k) boxes_.push_back(whole_boxes(points_.shift(k)));
+    for (std::size_t k = 0; k < points_.size(); ++k) boxes_.push_back(points_.boxes(k));
     for (const std::uint32_t place : points_.rows(0)) place_of_[points_.slot(place / kernels::point_width)] = place;
     for (std::size_t i = 0; i < layout_.size(); ++i) particle_in_[layout_.slot_of(i)] = i;
   }
@@ -85,11 +86,6 @@ class CandidateSearch {
   }
 
  private:
-  std::array<int, 3> whole_boxes(const std::array<double, 3>& shift) const {
-    std::array<int, 3> boxes{};
-    for (std::size_t axis = 0; axis < 3; ++axis) boxes[axis] = static_cast<int>(std::lround(shift[axis] / box_.length[axis]));
-    return boxes;
-  }
   double in_unit(double length) const { return std::scalbn(length, exponent_); }
 
   // An upper bound on the difference between separations of points and of the caller's positions: each takes a few operations.
@@ -141,6 +137,7 @@ void append(OrderedPairs& pairs, std::size_t first, const std::vector<Partner>& 
 }  // namespace
 
 OrderedPairs ordered_pairs(const Box& box, std::span<const double> positions, double cutoff, const kernels::KernelTable& table) {
+  const FloatEnvironment environment;
   check_lengths(box, cutoff);
   check_positions(box, positions, cutoff);
   OrderedPairs pairs;

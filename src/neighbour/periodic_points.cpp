@@ -1,10 +1,15 @@
 #include "neighbour/periodic_points.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
+#include "core/error.hpp"
+#include "core/option_checks.hpp"
 #include "core/parallel.hpp"
+#include "neighbour/closed_gaps.hpp"
 
 namespace lanescape {
 namespace {
@@ -12,12 +17,21 @@ namespace {
 constexpr double points_per_run = 8.0;
 // The number of points that a search may read beyond the last.
 constexpr std::size_t read_ahead = 16;
+// Beyond, wrapping leaves too few digits.
+constexpr double most_boxes_away = 1e12;
+
+void check_boxes_away(double boxes, double length) {
+  if (!(std::abs(boxes) <= most_boxes_away))
+    throw_bad_input(fmt::format("a particle's coordinate is {} boxes of edge {} away: it must be finite and at most {} boxes away",
+                                boxes, length, most_boxes_away));
+}
 
 }  // namespace
 
 PeriodicPoints::PeriodicPoints(const Box& box, const ParticleLayout& layout, std::vector<double> margins, int threads,
                                double fixed_unit)
-    : box_(box),
+    : whole_box_(box),
+      box_(box),
       blocks_(layout.blocks()),
       layout_slots_(layout.slots()),
       threads_(threads),
@@ -29,6 +43,13 @@ PeriodicPoints::PeriodicPoints(const Box& box, const ParticleLayout& layout, std
     grids_[s].margin = margins[s];
     shape_grid(grids_[s], blocks_[s].count);
   }
+  sparse_ = is_sparse(box, layout.size(), largest_margin());
+}
+
+double PeriodicPoints::largest_margin() const {
+  double largest = 0.0;
+  for (const Grid& grid : grids_) largest = std::max(largest, grid.margin);
+  return largest;
 }
 
 void PeriodicPoints::shape_grid(Grid& grid, std::size_t particles) const {
@@ -69,11 +90,37 @@ std::size_t PeriodicPoints::Grid::cell_of(const std::array<double, 3>& position)
   return cell;
 }
 
+void PeriodicPoints::close_wide_gaps(const AlignedArray& positions) {
+  home_shifts_.resize(layout_slots_);
+  home_boxes_.resize(layout_slots_);
+  const auto for_each_slot = [&](auto visit) {
+    for (const kernels::SpeciesBlock& block : blocks_)
+      for (std::size_t slot = block.begin; slot < block.begin + block.count; ++slot) visit(slot);
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::vector<double> coordinates;
+    for_each_slot([&](std::size_t slot) { coordinates.push_back(positions[axis * layout_slots_ + slot]); });
+    check_finite(coordinates);
+    const ClosedGaps closed = close_gaps(std::move(coordinates), whole_box_.length[axis], 2.0 * largest_margin());
+    box_.length[axis] = closed.length;
+    std::size_t k = 0;
+    for_each_slot([&](std::size_t slot) {
+      home_shifts_[slot][axis] = closed.shifts[k];
+      home_boxes_[slot][axis] = closed.boxes[k++];
+      check_boxes_away(home_boxes_[slot][axis], whole_box_.length[axis]);
+    });
+  }
+  for (std::size_t s = 0; s < grids_.size(); ++s) shape_grid(grids_[s], blocks_[s].count);
+}
+
 std::array<double, 3> PeriodicPoints::home_of(const AlignedArray& positions, std::size_t slot) const {
   std::array<double, 3> home{};
+  if (sparse_) return home;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double x = positions[axis * layout_slots_ + slot], length = box_.length[axis];
-    if (!(x >= 0.0 && x < length)) home[axis] = -std::floor(x / length);
+    if (x >= 0.0 && x < length) continue;
+    home[axis] = -std::floor(x / length);
+    check_boxes_away(home[axis], length);
   }
   return home;
 }
@@ -81,7 +128,18 @@ std::array<double, 3> PeriodicPoints::home_of(const AlignedArray& positions, std
 std::array<double, 3> PeriodicPoints::shift_of(const Image& image, const std::array<double, 3>& home) const {
   std::array<double, 3> shift{};
   for (std::size_t axis = 0; axis < 3; ++axis) shift[axis] = (image.boxes[axis] + home[axis]) * box_.length[axis];
+  if (sparse_)
+    for (std::size_t axis = 0; axis < 3; ++axis) shift[axis] += home_shifts_[image.slot][axis];
   return shift;
+}
+
+std::array<int, 3> PeriodicPoints::boxes(std::size_t k) const {
+  std::array<int, 3> boxes{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double home_shift = sparse_ ? home_shifts_[slots_[k]][axis] : 0.0, home = sparse_ ? home_boxes_[slots_[k]][axis] : 0.0;
+    boxes[axis] = static_cast<int>(std::lround((shifts_[k][axis] - home_shift) / box_.length[axis] + home));
+  }
+  return boxes;
 }
 
 void PeriodicPoints::list_images(const AlignedArray& positions, const kernels::SpeciesBlock& block, const Grid& grid,
@@ -94,9 +152,8 @@ void PeriodicPoints::list_images(const AlignedArray& positions, const kernels::S
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double length = box_.length[axis];
       x[axis] = positions[axis * layout_slots_ + slot];
-      const double wrapped = x[axis] + home[axis] * length;
+      const double wrapped = x[axis] + (sparse_ ? home_shifts_[slot][axis] : home[axis] * length);
       if (wrapped >= grid.margin && wrapped <= length - grid.margin) continue;
-      // A particle whose coordinates are not finite has no images.
       const double down = std::floor((wrapped + grid.margin) / length), up = std::floor((length + grid.margin - wrapped) / length);
       least[axis] = down > 0.0 ? static_cast<std::int16_t>(-down) : std::int16_t{0};
       most[axis] = up > 0.0 ? static_cast<std::int16_t>(up) : std::int16_t{0};
@@ -116,6 +173,7 @@ void PeriodicPoints::list_images(const AlignedArray& positions, const kernels::S
 void PeriodicPoints::sort(const AlignedArray& positions) {
   slots_.clear();
   shifts_.clear();
+  if (sparse_) close_wide_gaps(positions);
   for (std::size_t s = 0; s < grids_.size(); ++s) sort_species(positions, s);
   const std::size_t n = size();
   points_.resize(kernels::point_width * n, 0.0);

@@ -16,6 +16,7 @@ namespace lanescape {
 // The particles of a box and those of their periodic images that lie within a margin of it, as points: species by species, and
 // within a species by the cells of a grid over box and margin, so that points near in space are near in memory. With images as
 // points of their own, separations are plain differences and the box may be of any size, down to a fraction of the margin.
+// In a sparse box wide gaps between particles are narrowed first (ClosedGaps): separations within the margin stay as they are.
 //
 // Cells run fastest along z: the points of neighbouring cells of one column are one run. The order depends on the positions
 // alone, not on the number of threads.
@@ -25,7 +26,8 @@ class PeriodicPoints {
   // of two [sigma]; 0: there are none.
   PeriodicPoints(const Box& box, const ParticleLayout& layout, std::vector<double> margins, int threads, double fixed_unit = 0.0);
 
-  // Sorts the points of these positions (layout's order, wrapped or not). O(N).
+  // Sorts the points of these positions (layout's order, wrapped or not). O(N). Throws Error(bad_input) for a coordinate that is
+  // not finite.
   void sort(const AlignedArray& positions);
   // Updates the same points to new positions.
   void refresh(const AlignedArray& positions, int part);  // a part of them, one per thread
@@ -43,8 +45,10 @@ class PeriodicPoints {
   double fixed_unit() const { return fixed_unit_; }
   // The slot of the particle that a point is, or is an image of.
   std::uint32_t slot(std::size_t k) const { return slots_[k]; }
-  // The shift from that particle's position, by whole boxes [sigma].
-  std::array<double, 3> shift(std::size_t k) const { return shifts_[k]; }
+  // Boxes to add to that particle's position.
+  std::array<int, 3> boxes(std::size_t k) const;
+  // The box that the points of the last sort fill, its wide gaps narrowed.
+  const Box& box() const { return box_; }
   // Offsets of the points of a species that are in the box, one for each particle, in the order of points.
   const AlignedVector<std::uint32_t>& rows(std::size_t species) const { return grids_[species].rows; }
 
@@ -65,8 +69,11 @@ class PeriodicPoints {
     std::array<std::int16_t, 3> boxes;  // from the particle's own point in the box
   };
 
+  double largest_margin() const;
   void shape_grid(Grid& grid, std::size_t particles) const;
-  // Whole boxes that bring a particle into the box.
+  // Narrows the wide gaps of a sparse box: sets the box, its grids and the home shifts.
+  void close_wide_gaps(const AlignedArray& positions);
+  // Whole boxes that bring a particle into the box, where no home shifts do.
   std::array<double, 3> home_of(const AlignedArray& positions, std::size_t slot) const;
   std::array<double, 3> shift_of(const Image& image, const std::array<double, 3>& home) const;
   void list_images(const AlignedArray& positions, const kernels::SpeciesBlock& block, const Grid& grid, std::size_t begin,
@@ -75,7 +82,7 @@ class PeriodicPoints {
   // Of the points [begin, end).
   void fix_points(std::size_t begin, std::size_t end);
 
-  Box box_;
+  Box whole_box_, box_;
   std::vector<kernels::SpeciesBlock> blocks_;
   std::size_t layout_slots_;
   int threads_;
@@ -85,6 +92,9 @@ class PeriodicPoints {
   AlignedVector<std::int32_t> fixed_points_;
   AlignedVector<std::uint32_t> slots_;
   AlignedVector<std::array<double, 3>> shifts_;
+  bool sparse_ = false;
+  // Of a sparse box, per slot: the shift that brings a particle into box_, and the boxes among it.
+  std::vector<std::array<double, 3>> home_shifts_, home_boxes_;
   std::array<AlignedVector<float>, 3> columns_;
   // Scratch arrays of a sort, kept to reuse their memory.
   std::vector<AlignedVector<Image>> images_;

@@ -1,5 +1,8 @@
 #include "neighbour/sorted_cells.hpp"
 
+#include "core/option_checks.hpp"
+#include "neighbour/closed_gaps.hpp"
+
 namespace lanescape {
 namespace {
 
@@ -39,24 +42,41 @@ SortedCells::SortedCells(const Configuration& configuration, double reach)
 
 // A counting sort.
 SortedCells::SortedCells(const Box& box, double reach, std::vector<Point> points)
-    : box_(box),
-      margin_(margin_in(box)),
-      reach_(reach + margin_),
-      cells_(shape(box, reach_, points.size())),
-      points_(points.size()) {
-  for (std::size_t axis = 0; axis < 3; ++axis) cells_per_length_[axis] = static_cast<double>(cells_[axis]) / box.length[axis];
+    : box_(box), margin_(margin_in(box)), reach_(reach + margin_), points_(points.size()) {
+  if (is_sparse(box, points.size(), reach)) close_wide_gaps(points, reach);
+  cells_ = shape(box_, reach_, points.size());
+  for (std::size_t axis = 0; axis < 3; ++axis) cells_per_length_[axis] = static_cast<double>(cells_[axis]) / box_.length[axis];
   std::vector<std::uint32_t> cell(points.size());
   first_.assign(cells_[0] * cells_[1] * cells_[2] + 1, 0);
   for (std::size_t i = 0; i < points.size(); ++i) {
     auto& position = points[i].position;
     for (std::size_t axis = 0; axis < 3; ++axis)
-      if (!(position[axis] >= 0.0 && position[axis] < box.length[axis])) position[axis] = box.wrapped(axis, position[axis]);
+      if (!(position[axis] >= 0.0 && position[axis] < box_.length[axis])) position[axis] = box_.wrapped(axis, position[axis]);
     cell[i] = static_cast<std::uint32_t>(cell_of(position));
     ++first_[cell[i]];
   }
   // Ends become beginnings, as points are stored from the last to the first.
   for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
   for (std::size_t i = points.size(); i-- > 0;) points_[--first_[cell[i]]] = points[i];
+}
+
+void SortedCells::close_wide_gaps(std::vector<Point>& points, double reach) {
+  double largest = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::vector<double> coordinates;
+    coordinates.reserve(points.size());
+    for (const Point& point : points) coordinates.push_back(point.position[axis]);
+    check_finite(coordinates);
+    const ClosedGaps closed = close_gaps(std::move(coordinates), box_.length[axis], 4.0 * reach);
+    box_.length[axis] = closed.length;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      double& x = points[i].position[axis];
+      largest = std::max({largest, std::abs(x), std::abs(closed.shifts[i])});
+      x += closed.shifts[i];
+    }
+  }
+  margin_ = std::max(margin_in(box_), 1e-15 * largest);
+  reach_ = reach + margin_;
 }
 
 std::size_t SortedCells::cell_of(const std::array<double, 3>& wrapped) const {

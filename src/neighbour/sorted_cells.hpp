@@ -13,8 +13,8 @@
 namespace lanescape {
 
 // Finds near pairs of points that do not move (CellGrid is for those that do). Points are sorted by the cells of a periodic
-// grid, so that points near in space are near in memory. An axis with room for fewer than three cells has one. Construction is
-// O(N).
+// grid, so that points near in space are near in memory. An axis with room for fewer than three cells has one. Wide gaps of a
+// sparse box are narrowed first (ClosedGaps). Construction is O(N).
 class SortedCells {
  public:
   struct Point {
@@ -53,6 +53,9 @@ class SortedCells {
   std::size_t next(std::size_t axis, std::size_t cell) const { return cell + 1 < cells_[axis] ? cell + 1 : 0; }
   std::size_t last(std::size_t axis, std::size_t cell) const { return (cell > 0 ? cell : cells_[axis]) - 1; }
   double distance_squared(const std::array<double, 3>& a, const std::array<double, 3>& b) const;
+
+  // Narrows the wide gaps of a sparse box: moves its points and shortens its edges.
+  void close_wide_gaps(std::vector<Point>& points, double reach);
 
   Box box_;
   double margin_, reach_;  // margin included

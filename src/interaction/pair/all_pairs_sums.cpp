@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/option_checks.hpp"
 #include "interaction/pair/pair_interaction.hpp"
 #include "interaction/pair/pair_parameters.hpp"
 #include "interaction/pair/pair_sums.hpp"
@@ -12,6 +13,8 @@ using kernels::ImageSearch;
 using kernels::LengthUnit;
 
 bool is_cubic(const Box& box) { return box.length[0] == box.length[1] && box.length[0] == box.length[2]; }
+// In units of a larger box, sigma^12 and its inverse would leave the range of numbers.
+constexpr double largest_box_unit = 1e6;
 
 }  // namespace
 
@@ -27,7 +30,8 @@ AllPairsSums::AllPairsSums(const PairModel& model, const Box& box, const Particl
         input_.shells[axis] = std::max(input_.shells[axis], static_cast<std::int32_t>(image_shells(box.length[axis], cutoff)));
   }
   const bool lattice = std::find(images.begin(), images.end(), ImageSearch::lattice) != images.end();
-  input_.unit = kernels_->in_box_units && is_cubic(box) && !lattice ? LengthUnit::box : LengthUnit::sigma;
+  input_.unit = kernels_->in_box_units && is_cubic(box) && box.length[0] <= largest_box_unit && !lattice ? LengthUnit::box
+                                                                                                         : LengthUnit::sigma;
   const double unit = input_.unit == LengthUnit::box ? box.length[0] : 1.0;
   pairs_ = pair_parameters(model, unit);
   if (model.form->has_diameters) {
@@ -51,19 +55,31 @@ kernels::PairInput AllPairsSums::input(const AlignedArray& positions) {
   return in;
 }
 
-double AllPairsSums::energy(const AlignedArray& positions) { return kernels_->energy(input(positions)); }
+namespace {
+
+// A position that is not finite makes the energy NaN; overlapping particles may do so too.
+double checked(double energy, const AlignedArray& positions) {
+  if (std::isnan(energy)) check_finite(positions);
+  return energy;
+}
+
+}  // namespace
+
+double AllPairsSums::energy(const AlignedArray& positions) { return checked(kernels_->energy(input(positions)), positions); }
 
 void AllPairsSums::gradient_only(const AlignedArray& positions, AlignedArray& gradient) {
   kernels::PairOutput out;
-  kernels_->gradient(input(positions), gradient.data(), out);
+  AllPairsSums::gradient(positions, gradient, out);
 }
 
 void AllPairsSums::gradient(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) {
   kernels_->gradient(input(positions), gradient.data(), out);
+  checked(out.energy, positions);
 }
 
 void AllPairsSums::stress(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) {
   kernels_->stress(input(positions), gradient.data(), out);
+  checked(out.energy, positions);
 }
 
 }  // namespace lanescape

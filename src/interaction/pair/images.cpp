@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/option_checks.hpp"
 
 namespace lanescape {
 
@@ -26,6 +27,7 @@ ImageSearch image_search(const Box& box, double cutoff, ImageRule rule) {
 }
 
 void check_cutoff(const PairModel& model, const Box& box, double scale) {
+  check_edges(box.length);
   if (model.images == ImageRule::minimum) return;
   const double cutoff = scale * model.largest_cutoff();
   if (image_shells(box.shortest(), cutoff) > max_image_shells)

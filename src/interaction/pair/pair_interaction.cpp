@@ -8,17 +8,23 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/float_environment.hpp"
 #include "interaction/pair/pair_parameters.hpp"
 #include "interaction/pair/pair_sums.hpp"
 #include "neighbour/neighbour_list.hpp"
 
 namespace lanescape {
 
-PairInteraction::PairInteraction(const PairModel& model, const Box& box, const ParticleLayout& layout,
+PairInteraction::PairInteraction(const PairModel& given, const Box& given_box, const ParticleLayout& given_layout,
                                  const kernels::KernelTable& table, const PairSearchOptions& options)
-    : blocks_(layout.blocks()) {
+    : blocks_(given_layout.blocks()), reduced_(length_unit(given, given_layout)) {
+  const FloatEnvironment environment;
+  check_cutoff(given, given_box, diameter_scale(given, given_layout));
+  const PairModel model = given.in_unit(reduced_.unit());
+  const Box box = reduced_.box(given_box);
+  const ParticleLayout layout = given_layout.in_unit(reduced_.unit());
   const double scale = diameter_scale(model, layout);
-  check_cutoff(model, box, scale);
+  if (options.precision == Precision::mixed) check_single_precision(given, given_layout);
   if (takes_list(model, box, scale, layout.size(), options))
     sums_ = std::make_unique<ListSums>(model, box, layout, table, options.skin, useful_threads(layout.size(), options.threads),
                                        options.precision);
@@ -85,19 +91,30 @@ PairInteraction::Evaluation PairInteraction::with_constants(const kernels::PairO
   return e;
 }
 
-double PairInteraction::energy(const AlignedArray& positions) { return sums_->energy(positions) + constants_.energy; }
+double PairInteraction::energy(const AlignedArray& positions) {
+  const FloatEnvironment environment;
+  return sums_->energy(reduced_.of(positions)) + constants_.energy;
+}
 
-void PairInteraction::gradient(const AlignedArray& positions, AlignedArray& gradient) { sums_->gradient_only(positions, gradient); }
+void PairInteraction::gradient(const AlignedArray& positions, AlignedArray& gradient) {
+  const FloatEnvironment environment;
+  sums_->gradient_only(reduced_.of(positions), gradient);
+  reduced_.restore(gradient);
+}
 
 PairInteraction::Evaluation PairInteraction::energy_and_gradient(const AlignedArray& positions, AlignedArray& gradient) {
+  const FloatEnvironment environment;
   kernels::PairOutput out;
-  sums_->gradient(positions, gradient, out);
+  sums_->gradient(reduced_.of(positions), gradient, out);
+  reduced_.restore(gradient);
   return with_constants(out);
 }
 
 PairInteraction::Evaluation PairInteraction::energy_and_stress(const AlignedArray& positions, AlignedArray& gradient) {
+  const FloatEnvironment environment;
   kernels::PairOutput out;
-  sums_->stress(positions, gradient, out);
+  sums_->stress(reduced_.of(positions), gradient, out);
+  reduced_.restore(gradient);
   Evaluation e = with_constants(out);
   for (std::size_t k = 0; k < 6; ++k) e.virial_tensor[k] += out.virial_tensor[k];
   return e;

@@ -14,6 +14,7 @@
 #include "interaction/pair/long_range.hpp"
 #include "interaction/pair/pair_search.hpp"
 #include "interaction/pair/separations.hpp"
+#include "interaction/reduced_positions.hpp"
 #include "kernel_table.hpp"
 
 namespace lanescape {
@@ -51,7 +52,7 @@ class PairInteraction {
   const NeighbourList* list() const;
 
  private:
-  // What does not depend on the positions: own images of a particle and long-range corrections.
+  // What does not depend on the positions: own images of a particle and long-range corrections. Lengths are reduced.
   void add_images_of_self(const PairModel& model, const Box& box, const AlignedArray& diameters);
   // Those of particles of one kind, whose number is `count`.
   void add_images_of_one(const PairModel& model, const PairNumbers& numbers, double count, const Box& box);
@@ -59,6 +60,7 @@ class PairInteraction {
   Evaluation with_constants(const kernels::PairOutput& out) const;
 
   std::vector<kernels::SpeciesBlock> blocks_;
+  ReducedPositions reduced_;
   std::unique_ptr<PairSums> sums_;
   Evaluation constants_;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/length_unit.hpp"
 
 namespace lanescape {
 
@@ -14,6 +15,10 @@ double diameter_scale(const PairModel& model, const ParticleLayout& layout) {
   if (layout.size() > 0 && diameters.size() == 0)
     throw_bad_input(fmt::format("model {} needs a diameter of each particle, column diameter:R:1 of a file", model.name));
   return diameters.size() == 0 ? 1.0 : *std::max_element(diameters.begin(), diameters.end());
+}
+
+double length_unit(const PairModel& model, const ParticleLayout& layout) {
+  return model.form->has_diameters ? length_unit_of(diameter_scale(model, layout)) : model.length_unit();
 }
 
 std::vector<kernels::PairParameters> pair_parameters(const PairModel& model, double unit) {
@@ -28,6 +33,38 @@ std::vector<kernels::PairParameters> pair_parameters(const PairModel& model, dou
     pairs.push_back(pair);
   }
   return pairs;
+}
+
+namespace {
+
+// `smallest` and `largest`: diameters of particles that have some of their own.
+void check_single_precision(const PairModel& model, double smallest, double largest) {
+  // Coordinates are rounded to about 2^-29 of the largest reach: so much of the smallest sigma is 2^-24, the rounding of a number.
+  constexpr double most_reach_per_size = 32.0, least_epsilon = 1e-10, greatest_epsilon = 1e10;
+  const double size = smallest * *std::min_element(model.sigma.begin(), model.sigma.end()),
+               reach = largest * model.largest_cutoff();
+  if (reach > most_reach_per_size * size)
+    throw_bad_input(
+        fmt::format("mixed precision is not allowed with a smallest diameter of {} and a cutoff of {}: at most {} diameters "
+                    "are; double precision has no such limit",
+                    size, reach, most_reach_per_size));
+  for (const double e : model.epsilon)
+    if (e != 0.0 && !(e >= least_epsilon && e <= greatest_epsilon))
+      throw_bad_input(
+          fmt::format("mixed precision is not allowed with epsilon {}: from {} to {} is; double precision has no such limit", e,
+                      least_epsilon, greatest_epsilon));
+}
+
+}  // namespace
+
+void check_single_precision(const PairModel& model) { check_single_precision(model, 1.0, 1.0); }
+
+void check_single_precision(const PairModel& model, const ParticleLayout& layout) {
+  double smallest = diameter_scale(model, layout);
+  if (model.form->has_diameters)
+    for (const auto& block : layout.blocks())
+      for (std::size_t k = 0; k < block.count; ++k) smallest = std::min(smallest, layout.diameters()[block.begin + k]);
+  check_single_precision(model, smallest, diameter_scale(model, layout));
 }
 
 std::vector<kernels::SinglePairParameters> single_pair_parameters(const std::vector<kernels::PairParameters>& pairs,

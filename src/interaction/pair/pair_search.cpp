@@ -4,6 +4,7 @@
 
 #include "core/enum_words.hpp"
 #include "core/error.hpp"
+#include "interaction/pair/pair_parameters.hpp"
 
 namespace lanescape {
 
@@ -35,7 +36,9 @@ void check_list(const PairModel& model, const Box& box, double scale, Precision 
 }  // namespace
 
 void check_precision(const PairModel& model, const Box& box, Precision precision, double skin) {
-  if (precision == Precision::mixed) check_list(model, box, 1.0, precision, skin);
+  if (precision != Precision::mixed) return;
+  check_list(model, box, 1.0, precision, skin);
+  check_single_precision(model);
 }
 
 bool takes_list(const PairModel& model, const Box& box, double scale, std::size_t particles, const PairSearchOptions& options) {

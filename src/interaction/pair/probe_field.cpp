@@ -6,8 +6,12 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/float_environment.hpp"
+#include "core/length_unit.hpp"
+#include "core/option_checks.hpp"
 #include "interaction/pair/pair_interaction.hpp"
 #include "interaction/pair/pair_parameters.hpp"
+#include "interaction/reduced_positions.hpp"
 
 namespace lanescape {
 namespace {
@@ -24,24 +28,17 @@ double energy_alone(const PairModel& model, const Box& box, int species, double 
 
 ProbeField::ProbeField(const PairModel& model, const Configuration& fluid, int species, const kernels::KernelTable& table,
                        double diameter)
-    : table_(&table),
-      model_(model),
-      kernels_(&table.pair_kernels(model.kernel_form().kernel)),
-      box_(fluid.box),
-      species_(species),
-      diameter_(diameter),
-      smallest_diameter_(diameter),
-      largest_diameter_(diameter) {
-  for (const double d : fluid.diameters) {
-    smallest_diameter_ = std::min(smallest_diameter_, d);
-    largest_diameter_ = std::max(largest_diameter_, d);
-  }
-  const double scale = model.form->has_diameters ? largest_diameter_ : 1.0;
+    : table_(&table), model_(model), kernels_(&table.pair_kernels(model.kernel_form().kernel)), box_(fluid.box), species_(species) {
+  const FloatEnvironment environment;
+  double scale = model.form->has_diameters ? diameter : 1.0;
+  for (const double d : fluid.diameters) scale = std::max(scale, d);
+  unit_ = model.form->has_diameters ? length_unit_of(scale) : model.length_unit();
+  diameter_ = diameter / unit_;
   check_cutoff(model, box_, scale);
   const std::size_t count = model.species.size();
   if (species < 0 || static_cast<std::size_t>(species) >= count)
     throw_bad_input(fmt::format("species {} of an inserted particle is not allowed: the model has {}", species, count));
-  put_fluid(fluid, scale);
+  put_fluid(model.in_unit(unit_), fluid, model.form->has_diameters ? scale / unit_ : 1.0);
   if (model.images == ImageRule::minimum && 2.0 * largest_cutoff_ > box_.shortest())
     throw_bad_input(
         fmt::format("insertion under the minimum-image rule is not allowed in a box of shortest edge {}: at least twice the "
@@ -51,22 +48,23 @@ ProbeField::ProbeField(const PairModel& model, const Configuration& fluid, int s
   refresh();
 }
 
-void ProbeField::put_fluid(const Configuration& fluid, double scale) {
-  const std::size_t count = model_.species.size();
-  const std::vector<kernels::PairParameters> all = pair_parameters(model_);
+void ProbeField::put_fluid(const PairModel& model, const Configuration& fluid, double scale) {
+  const std::size_t count = model.species.size();
+  const std::vector<kernels::PairParameters> all = pair_parameters(model);
   std::vector<std::vector<Point>> points(count);
   std::vector<std::vector<double>> diameters(count);
   for (std::size_t i = 0; i < fluid.size(); ++i) {
-    points[static_cast<std::size_t>(fluid.species[i])].push_back(fluid.position(i));
-    if (!fluid.diameters.empty()) diameters[static_cast<std::size_t>(fluid.species[i])].push_back(fluid.diameters[i]);
+    const auto s = static_cast<std::size_t>(fluid.species[i]);
+    points[s].push_back(home(fluid.position(i)));
+    if (!fluid.diameters.empty()) diameters[s].push_back(fluid.diameters[i] / unit_);
   }
   for (std::size_t b = 0; b < count; ++b) {
-    const std::size_t ab = model_.pair(static_cast<std::size_t>(species_), b);
-    const double cutoff = scale * model_.cutoff_of(ab);
-    largest_cutoff_ = std::max(largest_cutoff_, cutoff);
+    const std::size_t ab = model.pair(static_cast<std::size_t>(species_), b);
+    const double cutoff = scale * model.cutoff_of(ab);
+    largest_cutoff_ = std::max(largest_cutoff_, cutoff * unit_);
     largest_sigma_ = std::max(largest_sigma_, model_.sigma[ab]);
     pairs_.push_back(all[ab]);
-    cells_.emplace_back(box_, cutoff, points[b].size());
+    cells_.emplace_back(ReducedPositions(unit_).box(box_), cutoff, points[b].size());
     cells_.back().assign(points[b], diameters[b]);
     tail_.push_back(model_.truncation == Truncation::tail
                         ? 2.0 * long_range(model_, static_cast<std::size_t>(species_), b, box_.volume()).energy
@@ -87,16 +85,18 @@ void ProbeField::refresh() {
 }
 
 ProbeField::Point ProbeField::home(const Point& position) const {
+  if (0.0 * (position[0] + position[1] + position[2]) != 0.0) check_finite(position);
   Point home{};
-  for (std::size_t axis = 0; axis < 3; ++axis) home[axis] = box_.wrapped(axis, position[axis]);
+  for (std::size_t axis = 0; axis < 3; ++axis) home[axis] = box_.wrapped(axis, position[axis]) / unit_;
   return home;
 }
 
 ProbeField::Sample ProbeField::sample(const Point& position) const {
+  const FloatEnvironment environment;
   kernels::ProbeOutput out;
   const Point at = home(position);
   kernels_->probe({views_.data(), views_.size(), diameter_}, at.data(), out);
-  return {out.energy + constant_, {out.gradient[0], out.gradient[1], out.gradient[2]}};
+  return {out.energy + constant_, {out.gradient[0] / unit_, out.gradient[1] / unit_, out.gradient[2] / unit_}};
 }
 
 double ProbeField::energy(const Point& position) const {
@@ -106,8 +106,13 @@ double ProbeField::energy(const Point& position) const {
 }
 
 void ProbeField::energies(std::span<const double> positions, std::span<double> out) const {
-  std::vector<double> wrapped(positions.begin(), positions.end());
-  for (std::size_t k = 0; k < wrapped.size(); ++k) wrapped[k] = box_.wrapped(k % 3, wrapped[k]);
+  const FloatEnvironment environment;
+  std::vector<double> wrapped;
+  wrapped.reserve(positions.size());
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const Point at = home(point_at(positions.data(), k));
+    wrapped.insert(wrapped.end(), at.begin(), at.end());
+  }
   kernels_->probe_energies({views_.data(), views_.size(), diameter_}, wrapped.data(), out.size(), out.data());
   for (double& energy : out) energy += constant_;
 }
@@ -121,16 +126,26 @@ std::vector<double> ProbeField::clearances(double energy) const {
 }
 
 std::size_t ProbeField::first_clear(std::span<const double> clearances, std::span<const double> positions) const {
-  return table_->probe_first_clear({views_.data(), views_.size(), diameter_}, clearances.data(), positions.data(), positions.size() / 3);
+  const FloatEnvironment environment;
+  std::vector<double> reduced;
+  if (unit_ != 1.0) {
+    reduced.assign(clearances.begin(), clearances.end());
+    reduced.insert(reduced.end(), positions.begin(), positions.end());
+    for (double& length : reduced) length /= unit_;
+    clearances = {reduced.data(), clearances.size()};
+    positions = {reduced.data() + clearances.size(), positions.size()};
+  }
+  return table_->probe_first_clear({views_.data(), views_.size(), diameter_}, clearances.data(), positions.data(),
+                                   positions.size() / 3);
 }
 
 void ProbeField::insert(const Point& position, int species) {
-  cells_[static_cast<std::size_t>(species)].insert(position, diameter_);
+  cells_[static_cast<std::size_t>(species)].insert(home(position), diameter_);
   refresh();
 }
 
 bool ProbeField::remove(const Point& position, int species) {
-  const bool removed = cells_[static_cast<std::size_t>(species)].remove(position);
+  const bool removed = cells_[static_cast<std::size_t>(species)].remove(home(position));
   refresh();
   return removed;
 }

@@ -53,9 +53,10 @@ class ProbeField {
   double constant() const { return constant_; }
 
  private:
-  void put_fluid(const Configuration& fluid, double scale);
+  void put_fluid(const PairModel& model, const Configuration& fluid, double scale);
   // Cells and pair, as the kernels take them; made anew at every change.
   void refresh();
+  // In the box and in unit_. Throws Error(bad_input) for a coordinate that is not finite.
   Point home(const Point& position) const;
 
   const kernels::KernelTable* table_;
@@ -63,12 +64,12 @@ class ProbeField {
   const kernels::PairKernels* kernels_;
   Box box_;
   int species_;
-  double diameter_;
-  double smallest_diameter_ = 0.0, largest_diameter_ = 0.0;  // of fluid and probe
   double largest_cutoff_ = 0.0, largest_sigma_ = 0.0;
+  // From here on lengths are in unit_.
+  double unit_, diameter_;
   std::vector<ProbeCells> cells_;  // by species
   std::vector<kernels::PairParameters> pairs_;
-  std::vector<double> reaches_;  // of pairs_ [sigma]
+  std::vector<double> reaches_;  // of pairs_
   std::vector<double> tail_;     // what the energy rises by for each particle there is of a species
   double own_ = 0.0, constant_ = 0.0;
   std::vector<kernels::ProbeSpecies> views_;

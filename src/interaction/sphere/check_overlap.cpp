@@ -8,6 +8,7 @@
 
 #include "configuration/particle_layout.hpp"
 #include "core/error.hpp"
+#include "core/option_checks.hpp"
 #include "interaction/sphere/hard_sphere_overlap.hpp"
 
 namespace lanescape {
@@ -18,6 +19,7 @@ double sphere_gap(const Configuration& configuration, std::size_t i, std::size_t
 }
 
 void check_box_holds_spheres(const Configuration& configuration) {
+  check_edges(configuration.box.length);
   const double largest = 2.0 * *std::max_element(configuration.radii.begin(), configuration.radii.end());
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (!(configuration.box.length[axis] >= 2.0 * largest))

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/float_environment.hpp"
 #include "core/padded.hpp"
 
 namespace lanescape {
@@ -63,17 +64,20 @@ void HardSphereList::rebuild(const AlignedArray& positions) {
 }
 
 bool HardSphereList::any_overlap(const AlignedArray& positions) {
+  const FloatEnvironment environment;
   update(positions);
   return spheres_->table().sphere_list_any_overlap(list_, positions.data(), positions.size() / 3);
 }
 
 ContactPairs HardSphereList::find_contacts(const AlignedArray& positions) {
+  const FloatEnvironment environment;
   update(positions);
   contact_count_ = spheres_->table().sphere_list_contacts(list_, positions.data(), positions.size() / 3, contacts_);
   return {offsets_.data(), first_.data(), second_.data(), contact_count_};
 }
 
 void HardSphereList::add_contact_forces(kernels::ContactPotential potential, AlignedArray& force) {
+  const FloatEnvironment environment;
   spheres_->table().sphere_contact_forces(list_, contacts_, contact_count_, potential, force.data(), force.size() / 3);
 }
 

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/float_environment.hpp"
+#include "core/option_checks.hpp"
 #include "core/padded.hpp"
 
 namespace lanescape {
@@ -66,6 +68,7 @@ bool HardSphereOverlap::cells_are_cheaper(double reach) const {
 }
 
 SortedCells HardSphereOverlap::sorted(const AlignedArray& positions, double reach) const {
+  check_finite(positions);
   const Separations separations(box_, positions, radii_);
   std::vector<SortedCells::Point> points;
   points.reserve(particles_);
@@ -85,7 +88,12 @@ void HardSphereOverlap::for_each_near_pair(const AlignedArray& positions, double
 }
 
 bool HardSphereOverlap::any_overlap(const AlignedArray& positions) {
-  if (!cells_are_cheaper(0.0)) return table_->sphere_any_overlap(input(positions));
+  const FloatEnvironment environment;
+  if (!cells_are_cheaper(0.0)) {
+    const bool any = table_->sphere_any_overlap(input(positions));
+    if (any) check_finite(positions);
+    return any;
+  }
   const Separations separations(box_, positions, radii_);
   bool any = false;
   for_each_near_pair(positions, 0.0, [&](std::size_t i, std::size_t j) { any = any || separations.within(0.0, i, j); });
@@ -93,6 +101,8 @@ bool HardSphereOverlap::any_overlap(const AlignedArray& positions) {
 }
 
 double HardSphereOverlap::smallest_gap(const AlignedArray& positions) {
+  const FloatEnvironment environment;
+  check_finite(positions);
   if (particles_ < 2) return std::numeric_limits<double>::infinity();
   const Separations separations(box_, positions, radii_);
   // The cells know no gaps beyond the reach: it grows until a gap is below it.
@@ -106,6 +116,7 @@ double HardSphereOverlap::smallest_gap(const AlignedArray& positions) {
 }
 
 const std::vector<kernels::SpherePair>& HardSphereOverlap::pairs_within(const AlignedArray& positions, double reach) {
+  const FloatEnvironment environment;
   cells_are_cheaper(reach) ? find_pairs_by_cells(positions, reach) : find_pairs_among_all(positions, reach);
   return pairs_;
 }
@@ -113,6 +124,7 @@ const std::vector<kernels::SpherePair>& HardSphereOverlap::pairs_within(const Al
 void HardSphereOverlap::find_pairs_among_all(const AlignedArray& positions, double reach) {
   pairs_.resize(pairs_.capacity());
   std::size_t count = table_->sphere_pairs_within(input(positions), reach, pairs_.data(), pairs_.size());
+  if (count == kernels::sphere_pairs_broken) check_finite(positions);
   if (count > pairs_.size()) {
     pairs_.resize(2 * count);
     count = table_->sphere_pairs_within(input(positions), reach, pairs_.data(), pairs_.size());

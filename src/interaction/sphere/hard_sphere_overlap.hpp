@@ -25,6 +25,7 @@ class HardSphereOverlap {
   HardSphereOverlap(const Box& box, const ParticleLayout& layout, const std::vector<double>& radii,
                     const kernels::KernelTable& table, SpherePairSearch search = SpherePairSearch::by_size);
 
+  // All throw Error(bad_input) for a coordinate that is not finite.
   bool any_overlap(const AlignedArray& positions);
   // The smallest r_ij - s_ij [sigma]; infinity for a single particle.
   double smallest_gap(const AlignedArray& positions);

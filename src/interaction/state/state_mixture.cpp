@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/float_environment.hpp"
+#include "core/option_checks.hpp"
 #include "core/overloaded.hpp"
 #include "interaction/pair/closest_pair.hpp"
 #include "interaction/state/local_density.hpp"
@@ -88,6 +90,7 @@ StateMixtureParts make_parts(const StateMixtureModel& model) {
 }
 
 void check_cutoff(const StateMixtureModel& model, const Box& box) {
+  check_edges(box.length);
   double reach = 0.0;
   for (std::size_t s = 0; s < model.species.size(); ++s)
     for (std::size_t t = 0; t < model.species.size(); ++t) reach = std::max(reach, model.reach(s, t));
@@ -123,8 +126,13 @@ void check_soft_separations(const Configuration& configuration, const Model& mod
 
 StateMixture::StateMixture(StateMixtureParts parts, const Box& box, const ParticleLayout& layout, const kernels::KernelTable& table,
                            const Options& options)
-    : parts_(std::move(parts)),
-      sites_(box, layout, joint_reaches(parts_, layout.blocks().size()), parts_.response->states(), table,
+    : StateMixture(std::move(parts), ReducedPositions(1.0), box, layout, table, options) {}
+
+StateMixture::StateMixture(StateMixtureParts parts, const ReducedPositions& reduced, const Box& box, const ParticleLayout& layout,
+                           const kernels::KernelTable& table, const Options& options)
+    : reduced_(reduced),
+      parts_(std::move(parts)),
+      sites_(reduced.box(box), layout, joint_reaches(parts_, layout.blocks().size()), parts_.response->states(), table,
              {options.threads, options.skin, members(options.search)}),
       values_(layout.slots(), 0.0),
       multipliers_(layout.slots(), 0.0),
@@ -174,8 +182,9 @@ void StateMixture::add_multipliers_of_potentials() {
 }
 
 StateMixture::Evaluation StateMixture::evaluate(const AlignedArray& positions, AlignedArray& gradient, StateSums::Wanted wanted) {
+  const FloatEnvironment environment;
   const bool by_order = parts_.order_parameter && sites_.states() > 1, forces = wanted != StateSums::Wanted::energy;
-  sites_.move_to(positions);
+  sites_.move_to(reduced_.of(positions));
   if (by_order) parts_.order_parameter->evaluate(sites_, values_);
   const double one_body_energy = find_states();
   sites_.put_states();
@@ -187,6 +196,7 @@ StateMixture::Evaluation StateMixture::evaluate(const AlignedArray& positions, A
     add_multipliers_of_potentials();
     parts_.order_parameter->add_gradient(sites_, multipliers_, sums);
   }
+  if (forces) reduced_.restore(gradient);
   return {sums.energy + one_body_energy, one_body_energy, sums.virial, sums.virial_tensor};
 }
 

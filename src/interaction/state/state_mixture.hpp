@@ -6,6 +6,7 @@
 
 #include "configuration/model.hpp"
 #include "interaction/pair/pair_interaction.hpp"
+#include "interaction/reduced_positions.hpp"
 #include "interaction/state/site_states.hpp"
 
 namespace lanescape {
@@ -42,15 +43,16 @@ void check_soft_separations(const Configuration& configuration, const Model& mod
 class StateMixture {
  public:
   struct Options {
-    int threads = 1;  // that share the rows of the list; no effect on any result
-    double skin = default_skin;
+    int threads = 1;                       // that share the rows of the list; no effect on any result
+    double skin = default_skin;            // in the model's unit of length; [sigma] with parts of one's own
     PairSearch search = PairSearch::list;  // or all_pairs, which is slow and misses nothing
   };
   StateMixture(StateMixtureParts parts, const Box& box, const ParticleLayout& layout, const kernels::KernelTable& table,
                const Options& options);
   StateMixture(const StateMixtureModel& model, const Box& box, const ParticleLayout& layout, const kernels::KernelTable& table,
                const Options& options)
-      : StateMixture(make_parts(model), box, layout, table, options) {}
+      : StateMixture(make_parts(model.in_unit(model.length_unit())), ReducedPositions(model.length_unit()), box, layout, table,
+                     options) {}
 
   struct Evaluation {
     double energy = 0.0;           // all of U [epsilon]
@@ -70,11 +72,15 @@ class StateMixture {
   void exchange(Archive& archive) { sites_.exchange(archive); }
 
  private:
+  // Parts with lengths in the unit of `reduced`.
+  StateMixture(StateMixtureParts parts, const ReducedPositions& reduced, const Box& box, const ParticleLayout& layout,
+               const kernels::KernelTable& table, const Options& options);
   Evaluation evaluate(const AlignedArray& positions, AlignedArray& gradient, StateSums::Wanted wanted);
   // States, the one-body energy, and what it does to the multipliers.
   double find_states();
   void add_multipliers_of_potentials();
 
+  ReducedPositions reduced_;
   StateMixtureParts parts_;
   Sites sites_;
   AlignedArray values_, multipliers_;  // of each slot: order parameter, dU/d(order parameter)

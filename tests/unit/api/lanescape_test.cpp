@@ -107,9 +107,10 @@ TEST(LennardJonesPotential, RefusesSpeciesAndBoxesThatCannotBe) {
   EXPECT_EQ(refused(2, 10.0, {}), "species 2 is not allowed: model kob-andersen has 0 to 1");
   EXPECT_EQ(refused(-1, 10.0, {}), "species -1 is not allowed: model kob-andersen has 0 to 1");
   EXPECT_EQ(refused(1, 10.0, {.model = "lennard-jones"}), "species 1 is not allowed: model lennard-jones has 0 to 0");
-  EXPECT_EQ(refused(0, 0.0, {}), "box edge 0 is not allowed: it must be finite and above 0");
-  EXPECT_EQ(refused(0, std::numeric_limits<double>::infinity(), {}), "box edge inf is not allowed: it must be finite and above 0");
-  EXPECT_EQ(refused(0, std::nan(""), {}), "box edge nan is not allowed: it must be finite and above 0");
+  EXPECT_EQ(refused(0, 0.0, {}), "box edge 0 is not allowed: it must be from 1e-100 to 1e+100");
+  EXPECT_EQ(refused(0, std::numeric_limits<double>::infinity(), {}),
+            "box edge inf is not allowed: it must be from 1e-100 to 1e+100");
+  EXPECT_EQ(refused(0, std::nan(""), {}), "box edge nan is not allowed: it must be from 1e-100 to 1e+100");
 }
 
 TEST(LennardJonesPotential, RefusesArraysOfAnotherLength) {

@@ -161,7 +161,7 @@ TEST(ModelFile, WrittenModelsReadBackBitForBit) {
   model.species[1].fraction = 0.7;
   model.epsilon[1] = model.epsilon[2] = 1e22;
   model.epsilon[3] = 0.0;
-  model.sigma[0] = 5e-324;
+  model.sigma[0] = 1.0000000000000002;
   model.cutoff = 2.0;
   model.truncation = Truncation::plain;
   model.images = ImageRule::minimum;

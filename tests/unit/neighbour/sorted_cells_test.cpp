@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/random.hpp"
 
 namespace lanescape {
@@ -95,7 +96,7 @@ TEST(SortedCells, TakesFewPointsAndPointsInOnePlace) {
 }
 
 TEST(SortedCells, FindsOtherPairsAllTheSameWhereSomePointsAreNotNumbers) {
-  const Configuration points = random_points(100, {{5.0, 6.0, 7.0}}, 7);
+  const Configuration points = random_points(300, {{5.0, 6.0, 7.0}}, 7);
   Configuration broken = points;
   broken.positions[4] = std::numeric_limits<double>::quiet_NaN();
   broken.positions[9] = std::numeric_limits<double>::infinity();
@@ -105,6 +106,12 @@ TEST(SortedCells, FindsOtherPairsAllTheSameWhereSomePointsAreNotNumbers) {
   };
   for (Pairs* pairs : {&wanted, &found}) std::erase_if(*pairs, broken_one);
   EXPECT_EQ(found, wanted);
+}
+
+TEST(SortedCells, RefusesPointsOfASparseBoxThatAreNotNumbers) {
+  Configuration broken = random_points(10, {{5.0, 6.0, 7.0}}, 7);
+  broken.positions[4] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(SortedCells(broken, 1.0), Error);
 }
 
 TEST(SortedCells, GivesTheNumbersItWasGiven) {

@@ -1,0 +1,42 @@
+#pragma once
+
+#if !defined(__SSE2__)
+#include <cfenv>
+#endif
+
+namespace lanescape {
+
+// The floating-point environment in which the library's results are what they are: rounding to nearest, no traps, gradual
+// underflow. Holds for this thread while the object lives; then the host has its own back, exception flags included. Kernels divide
+// by zero in lanes that are masked out, and the rounding of SSE2 rests on the rounding mode. Costs a few instructions where the
+// host has changed nothing.
+class FloatEnvironment {
+ public:
+#if defined(__SSE2__)
+  FloatEnvironment() : host_(__builtin_ia32_stmxcsr()) {
+    if (is_foreign()) __builtin_ia32_ldmxcsr(standard);
+  }
+  ~FloatEnvironment() {
+    if (is_foreign()) __builtin_ia32_ldmxcsr(host_);
+  }
+#else
+  FloatEnvironment() {
+    std::feholdexcept(&host_);
+    std::fesetenv(FE_DFL_ENV);
+  }
+  ~FloatEnvironment() { std::fesetenv(&host_); }
+#endif
+  FloatEnvironment(const FloatEnvironment&) = delete;
+  FloatEnvironment& operator=(const FloatEnvironment&) = delete;
+
+ private:
+#if defined(__SSE2__)
+  static constexpr unsigned standard = 0x1f80, flags = 0x3f;  // of MXCSR
+  bool is_foreign() const { return (host_ & ~flags) != standard; }
+  unsigned host_;
+#else
+  std::fenv_t host_;
+#endif
+};
+
+}  // namespace lanescape
