@@ -7,28 +7,29 @@ namespace lanescape {
 
 CellGrid::CellGrid(const Box& box, double shortest_edge, std::size_t particles)
     : box_(box), next_(particles, -1), previous_(particles, -1), cell_(particles, 0) {
-  // More cells than particles would cost memory and gain nothing.
-  const double most_per_axis = std::max(3.0, std::cbrt(static_cast<double>(particles)) * 2.0);
-  bool fine = true;
+  // Many more cells than particles would cost memory and gain nothing. Cells are cubes as nearly as they can be.
+  const double most_per_edge = 2.0 * std::cbrt(static_cast<double>(particles) / box.volume()) * (1.0 + 1e-12);
+  std::array<std::size_t, 3> reach{};  // cells to each side
+  around_ = 1;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    cells_[axis] = static_cast<std::size_t>(std::min(box.length[axis] / shortest_edge, most_per_axis));
-    fine = fine && cells_[axis] >= 3;
+    const double most = std::max(3.0, std::min(most_per_edge * box.length[axis], static_cast<double>(particles)));
+    cells_[axis] = static_cast<std::size_t>(std::min(box.length[axis] / shortest_edge, most));
+    if (cells_[axis] < 3) cells_[axis] = 1;
+    reach[axis] = cells_[axis] == 1 ? 0 : 1;
+    around_ *= 2 * reach[axis] + 1;
+    cells_per_length_[axis] = static_cast<double>(cells_[axis]) / box.length[axis];
   }
-  if (!fine) cells_ = {1, 1, 1};
-  for (std::size_t axis = 0; axis < 3; ++axis) cells_per_length_[axis] = static_cast<double>(cells_[axis]) / box.length[axis];
   const std::size_t count = cells_[0] * cells_[1] * cells_[2];
   first_.assign(count, -1);
-  around_ = fine ? 27 : 1;
   neighbours_.reserve(count * around_);
-  const std::size_t reach = fine ? 1 : 0;
   for (std::size_t x = 0; x < cells_[0]; ++x)
     for (std::size_t y = 0; y < cells_[1]; ++y)
       for (std::size_t z = 0; z < cells_[2]; ++z)
-        for (std::size_t dx = 0; dx <= 2 * reach; ++dx)
-          for (std::size_t dy = 0; dy <= 2 * reach; ++dy)
-            for (std::size_t dz = 0; dz <= 2 * reach; ++dz) {
+        for (std::size_t dx = 0; dx <= 2 * reach[0]; ++dx)
+          for (std::size_t dy = 0; dy <= 2 * reach[1]; ++dy)
+            for (std::size_t dz = 0; dz <= 2 * reach[2]; ++dz) {
               const auto wrapped = [&](std::size_t c, std::size_t d, std::size_t axis) {
-                return (c + cells_[axis] + d - reach) % cells_[axis];
+                return (c + cells_[axis] + d - reach[axis]) % cells_[axis];
               };
               neighbours_.push_back(
                   static_cast<std::uint32_t>((wrapped(x, dx, 0) * cells_[1] + wrapped(y, dy, 1)) * cells_[2] + wrapped(z, dz, 2)));

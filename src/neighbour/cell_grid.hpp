@@ -10,11 +10,10 @@
 
 namespace lanescape {
 
-// Particles by the cell of a periodic grid they lie in. Where the box has fewer than three cells along an axis there is one cell
-// only: everything is near everything.
+// Particles by the cell of a periodic grid they lie in. An axis with room for fewer than three cells has one.
 class CellGrid {
  public:
-  // Cells with edges of at least `shortest_edge`; at most about one per particle.
+  // Cells with edges of at least `shortest_edge`; at most about eight per particle.
   CellGrid(const Box& box, double shortest_edge, std::size_t particles);
 
   void insert(std::int32_t particle, const std::array<double, 3>& position);
@@ -41,7 +40,7 @@ class CellGrid {
   Box box_;
   std::array<std::size_t, 3> cells_{};
   std::array<double, 3> cells_per_length_{};
-  std::size_t around_ = 1;                 // 27, or 1
+  std::size_t around_ = 1;                 // 27, 9, 3 or 1
   std::vector<std::uint32_t> neighbours_;  // around_ cells for each cell, itself included
   std::vector<std::int32_t> first_, next_, previous_;
   std::vector<std::uint32_t> cell_;  // of each particle
