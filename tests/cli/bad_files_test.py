@@ -62,7 +62,8 @@ class BadFiles(ProgramTest):
         two, moved = frame(*TWO), frame(*TWO_MOVED)
         other_box = frame(*TWO_MOVED, header=HEADER.replace('"4 0', '"4.1 0'))
         more = frame(*TWO_MOVED, "Ar 2 2 2")
-        for name, content, words in (("one frame", two, "1 frame"), ("three frames", two + moved + two, "3 frames"),
+        for name, content, words in (("one frame", two, "holds one frame"),
+                                     ("three frames", two + moved + two, "more than two frames"),
                                      ("other box", two + other_box, "box"), ("more particles", two + more, "composition"),
                                      ("no way between", two + two, "coincide")):
             with self.subTest(name):

@@ -36,6 +36,19 @@ class Energy(ProgramTest):
         self.assertEqual(result["energy_per_particle"], result["energy"] / 108)
         self.assertEqual(len(result["stress"]), 6)
 
+    def test_files_of_other_programs_are_read(self):
+        own = frame("Ni 0 1 2", "P -3.5 0.25 17", "Ni 1.5 4.75 0.125", "Ni 3 2.5 5", header=f'Lattice="4 0 0 0 5 0 0 0 6" {PROPERTIES}')
+        expected = self.done("energy", self.file("own.xyz", own), "--forces")
+        for file in sorted((DATA / "foreign").iterdir()):
+            with self.subTest(file.name):
+                self.assertEqual(self.done("energy", file, "--forces"), expected)
+
+    def test_frames_that_are_not_used_need_not_be_whole(self):
+        expected = self.done("energy", self.file("whole.xyz", frame(*TWO)), *ARGON)
+        for more in (frame(*TWO)[:-6], "2\n", "2\nno box\nAr"):
+            with self.subTest(more):
+                self.assertEqual(self.done("energy", self.file("cut.xyz", frame(*TWO) + more), *ARGON), expected)
+
     def test_mixed_precision_agrees_with_double_to_its_stated_error(self):
         for name in ("ka_tiny_8", "ka_melted_108", "ka_rattled_256"):
             arguments = ("energy", DATA / f"{name}.extxyz", "--forces")

@@ -71,10 +71,14 @@ void scale_radii(ConfigurationPair& pair, double tolerance, const std::string& w
 
 ConfigurationPair read_pair(const std::filesystem::path& file, const Model& model, double tolerance) {
   const bool hard = is_hard(model);
-  std::vector<Frame> frames = read_frames(file, mixture_of(model), traits_of(model).sizes);
-  if (frames.size() != 2)
-    throw_bad_input(fmt::format("{}: holds {} frames: a pair of end points is two", file.string(), frames.size()));
-  ConfigurationPair pair{std::move(frames[0].configuration), std::move(frames[1].configuration)};
+  ExtendedXyzReader reader(file, mixture_of(model), traits_of(model).sizes);
+  ConfigurationPair pair;
+  pair.start = reader.next()->configuration;
+  std::optional<Frame> second = reader.next();
+  if (!second || reader.another_begins())
+    throw_bad_input(fmt::format("{}: holds {}: a pair of end points is two frames", file.string(),
+                                second ? "more than two frames" : "one frame"));
+  pair.finish = std::move(second->configuration);
   if (hard) scale_radii(pair, tolerance, file.string());
   check_end_points(pair, model, file.string());
   for (std::size_t k = 0; k < pair.start.positions.size(); ++k)
@@ -84,7 +88,7 @@ ConfigurationPair read_pair(const std::filesystem::path& file, const Model& mode
 
 // The factor of scale_radii() when the pair was kept.
 double kept_radius_factor(const std::filesystem::path& file, const Model& model) {
-  const auto info = read_frames(file, mixture_of(model)).front().info;
+  const auto info = ExtendedXyzReader(file, mixture_of(model)).next()->info;
   const auto found = info.find(radius_factor_key);
   return found == info.end() ? 1.0 : std::stod(found->second);
 }
