@@ -208,6 +208,14 @@ PathInput read_input(PathState& state, const Model& model, Isa isa) {
   return input;
 }
 
+void warn_of_wrapped_pairs(const PathState& state, const std::vector<ConfigurationPair>& pairs) {
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    if (looks_wrapped(pairs[k]))
+      say(state.common, fmt::format("{}: warning: both end points lie in one box, and a particle moves by more than half an edge: "
+                                    "they look wrapped, and the distance {} is then wrong; unwrapped positions are needed",
+                                    state.pair_files[k], pairs[k].distance));
+}
+
 // The paths found, in JSON; whether all reached their goal.
 bool add_paths(Json& json, const std::vector<PathResult>& paths, const PathMethod& method, const Mixture& mixture) {
   json["paths"] = Json::array();
@@ -271,6 +279,7 @@ Json run_path(PathState& state, Options& options, int& status) {
 
   OutputFolder folder = open_folder(state.common);
   folder.write_run_file("path", options.resolved());
+  warn_of_wrapped_pairs(state, input.pairs);
   Ends ends = take_ends(state, model, std::move(input), path_options.precision, isa, folder);
   Json result;
   if (!ends.json.is_null()) result["endpoints"] = std::move(ends.json);
@@ -293,7 +302,10 @@ Json run_path(PathState& state, Options& options, int& status) {
 Subcommand add_path(CLI::App& app) {
   const auto options = std::make_shared<Options>(app, "path", "Find geodesics between pairs of end points");
   const auto state = std::make_shared<PathState>();
-  options->add("--pair", state->pair_files, "files with two frames, the end points; without any, pairs are made as by endpoints");
+  options->add(
+      "--pair", state->pair_files,
+      "files with two frames, the end points, unwrapped (with a warning if they look wrapped); without any, pairs are made as by "
+      "endpoints");
   options->add("--method", state->method,
                fmt::format("{}; {} for hard spheres [{}, {}]", path_method_words(false, " or "), path_method_words(true, " or "),
                            default_path_method(false).word, default_path_method(true).word));

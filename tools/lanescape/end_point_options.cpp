@@ -251,7 +251,7 @@ EndPoints make_end_points(const Model& model, const Configuration& start, const 
   result.json["seconds"] = run.seconds;
   if (folder.exists()) write_equilibration(folder, run, mixture_of(model));
   result.reached = run.done;
-  if (!result.reached && !run.interrupted) say(common, fmt::format("{}: {} pairs were made", run.ended_as, run.pairs.size()));
+  if (!result.reached && !run.interrupted) say(common, fmt::format("{}: pairs made: {}", run.ended_as, run.pairs.size()));
   return result;
 }
 
