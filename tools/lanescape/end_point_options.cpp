@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -139,7 +140,8 @@ void EndPointSetup::settle(const Model& model) {
 }
 
 Configuration EndPointSetup::start(const Model& model, const CommonOptions& common, Isa isa) {
-  resolve(model, particles_, common.seed);  // refuses values out of range before any work
+  // Refuses values out of range before any work; the start refuses 0 particles, which have no distance to speak of.
+  resolve(model, std::max<std::uint64_t>(particles_, 1), common.seed);
   const auto soft_start = [&](const auto& soft) {
     return start_file_.empty() ? fcc_start(soft, particles_, density_.value_or(1.2), common.seed)
                                : read_first_frame(start_file_, model);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <initializer_list>
 #include <iostream>
 #include <limits>
@@ -93,11 +92,8 @@ void refuse_options(std::initializer_list<std::pair<const char*, bool>> given, c
 std::vector<Species> with_fractions(std::vector<Species> species, const std::string& list) {
   std::vector<double> fractions;
   std::istringstream words(list);
-  for (std::string word; std::getline(words, word, ',');) {
-    char* end = nullptr;
-    fractions.push_back(std::strtod(word.c_str(), &end));
-    if (word.empty() || *end != '\0') fractions.back() = std::numeric_limits<double>::quiet_NaN();
-  }
+  for (std::string word; std::getline(words, word, ',');)
+    fractions.push_back(number_in(word).value_or(std::numeric_limits<double>::quiet_NaN()));
   const double sum = std::accumulate(fractions.begin(), fractions.end(), 0.0);
   const bool in_range = std::all_of(fractions.begin(), fractions.end(), [](double f) { return f >= 0.0 && f <= 1.0; });
   if (fractions.size() != species.size() || !in_range || std::abs(sum - 1.0) > 1e-9)
