@@ -189,6 +189,73 @@ TEST(Insertion, SearchesInAWellEndInTheirRegion) {
   }
 }
 
+TEST(Insertion, ARegionMayLieAcrossFacesOfTheBox) {
+  const PairModel model = kob_andersen();
+  const Box box = thin_mixture().box;
+  const double edge = box.length[0];
+  for (const RegionWall wall : {RegionWall::reflect, RegionWall::well})
+    for (const InsertionMethod method : every_method) {
+      ProbeField field(model, thin_mixture(), 0, table());
+      InsertionOptions options = options_with(-3.5, method);
+      options.wall = wall;
+      options.tolerance = 0.01;
+      options.region = Region{{-0.2 * edge, 1.0, -0.5 * box.length[2]}, {0.2 * edge, 3.0, 0.5 * box.length[2]}};
+      InsertionHistory history;
+      std::size_t below = 0, above = 0;
+      for (const Insertion& place : insert_particles(field, options, 12, history, 1)) {
+        if (!place.found) continue;
+        const auto [x, y, z] = place.position;
+        EXPECT_TRUE(x >= 0.0 && x < edge && y >= 0.0 && y < box.length[1] && z >= 0.0 && z < box.length[2]);
+        EXPECT_TRUE(x <= 0.2 * edge * (1 + 1e-12) || x >= 0.8 * edge * (1 - 1e-12)) << x;
+        EXPECT_TRUE(y >= 1.0 && y <= 3.0) << y;
+        ++(x < 0.5 * edge ? below : above);
+      }
+      EXPECT_GT(below, 0U) << to_string(method);
+      EXPECT_GT(above, 0U) << to_string(method);
+    }
+}
+
+TEST(Insertion, ARegionInAnotherImageOfTheBoxHasTheSamePlacesToRounding) {
+  const PairModel model = kob_andersen();
+  const ProbeField field(model, thin_mixture(), 0, table());
+  const Box& box = field.box();
+  for (const InsertionMethod method : {InsertionMethod::usher, InsertionMethod::screened}) {
+    InsertionOptions here = options_with(-3.5, method), there = here;
+    here.region = Region{{0.5, 1.0, 0.0}, {1.7, 3.0, 2.0}};
+    there.region = here.region;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      there.region->low[axis] -= box.length[axis];
+      there.region->high[axis] -= box.length[axis];
+    }
+    InsertionHistory first, second;
+    const Insertion a = find_places(field, here, 1, first, 1).front(), b = find_places(field, there, 1, second, 1).front();
+    ASSERT_TRUE(a.found && b.found);
+    EXPECT_EQ(a.evaluations, b.evaluations);
+    for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_NEAR(a.position[axis], b.position[axis], 1e-6);
+  }
+}
+
+TEST(Insertion, ParticlesAreRemovedFromARegionAcrossFaces) {
+  const PairModel model = lennard_jones();
+  const Configuration fluid{Box{{8.0, 8.0, 8.0}}, {0, 0, 0}, {7.5, 4.0, 4.0, 3.0, 4.0, 4.0, -7.6, 4.0, 12.0}};
+  const CounterRandom random(1, RandomStream::insertion);
+  const auto chosen = [&](const Region& region, std::uint64_t number) {
+    const auto removal = choose_removal(model, fluid, 0, RemovalRule::random, region, 0.0, random, number, choose_isa("auto"));
+    return removal ? static_cast<int>(removal->particle) : -1;
+  };
+  const Region across{{-1.0, -4.0, 0.0}, {1.0, 4.0, 8.0}}, within{{2.0, -4.0, 0.0}, {4.0, 4.0, 8.0}};
+  bool first = false, last = false;
+  for (std::uint64_t number = 0; number < 30; ++number) {
+    const int particle = chosen(across, number);
+    EXPECT_NE(particle, 1);
+    first = first || particle == 0;
+    last = last || particle == 2;
+    EXPECT_EQ(chosen(within, number), 1);
+  }
+  EXPECT_TRUE(first && last);
+  EXPECT_EQ(chosen(Region{{4.5, 0.0, 0.0}, {6.0, 8.0, 8.0}}, 0), -1);
+}
+
 TEST(Insertion, ATargetThatNoPlaceHasIsGivenUpAtTheLimitAndNothingIsPutIn) {
   const PairModel model = kob_andersen();
   ProbeField field(model, thin_mixture(), 0, table());
@@ -247,9 +314,12 @@ TEST(Insertion, RefusesWhatMakesNoSense) {
   EXPECT_EQ(refused([](auto& o) { o.tolerance = 0.0; }), "tolerance 0 is not allowed: it must be finite and above 0");
   EXPECT_EQ(refused([](auto& o) { o.target = std::nan(""); }), "target energy nan is not allowed: it must be finite");
   EXPECT_EQ(refused([](auto& o) { o.region = Region{{1.0, 4.0, 0.0}, {2.0, 3.0, 7.0}}; }),
-            "region from 4 to 3 along y is not allowed: 0 <= from < to <= 6 in this box");
+            "region from 4 to 3 along y is not allowed: from < to <= from + 6 in this box, at most 1000 edges away");
   EXPECT_EQ(refused([](auto& o) { o.region = Region{{1.0, 0.0, 0.0}, {2.0, 3.0, 7.5}}; }),
-            "region from 0 to 7.5 along z is not allowed: 0 <= from < to <= 7 in this box");
+            "region from 0 to 7.5 along z is not allowed: from < to <= from + 7 in this box, at most 1000 edges away");
+  EXPECT_EQ(
+      refused([](auto& o) { o.region = Region{{1.0, 0.0, 7e8}, {2.0, 3.0, 7e8 + 1.0}}; }),
+      "region from 700000000 to 700000001 along z is not allowed: from < to <= from + 7 in this box, at most 1000 edges away");
   EXPECT_EQ(refused([](auto& o) { o.most_trials = 0; }), "most trials 0 is not allowed: from 1 to 1000000000");
   EXPECT_NE(refused([](auto& o) { o.contact = 0.4; }).find("contact distance 0.4 is not allowed: above 0.5"), std::string::npos);
   EXPECT_EQ(testing::refusal([] { parse_insertion_method("newton"); }),
