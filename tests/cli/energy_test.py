@@ -8,7 +8,7 @@ import unittest
 
 import numpy
 
-from cli_support import DATA, ARGON, TINY, FLUID, PROPERTIES, TWO, TWO_MOVED, ProgramTest, frame
+from cli_support import DATA, ARGON, TINY, FLUID, PROPERTIES, TWO, TWO_MOVED, ProgramTest, frame, lanescape
 
 
 class Energy(ProgramTest):
@@ -48,6 +48,28 @@ class Energy(ProgramTest):
         for more in (frame(*TWO)[:-6], "2\n", "2\nno box\nAr"):
             with self.subTest(more):
                 self.assertEqual(self.done("energy", self.file("cut.xyz", frame(*TWO) + more), *ARGON), expected)
+
+    def test_no_zero_is_negative(self):
+        far = self.file("far.xyz", frame("Ar 0 0 0", "Ar 6 6 6", header=f'Lattice="12 0 0 0 12 0 0 0 12" {PROPERTIES}'))
+        for name in (far, self.file("two.xyz", frame(*TWO))):
+            for backend in ("simd", "reference"):
+                run = lanescape("energy", name, *ARGON, "--forces", "--backend", backend, "--out", self.folder / f"{name.name}{backend}")
+                self.assertEqual(run.returncode, 0)
+                self.assertNotRegex(run.stdout, r"-0\.0\b")
+                self.assertEqual((self.folder / f"{name.name}{backend}" / "result.json").read_text(), run.stdout)
+
+    def test_a_result_that_is_not_finite_is_never_printed(self):
+        for edge in ("1e30", "1e160", "1e307"):
+            header = f'Lattice="{edge} 0 0 0 {edge} 0 0 0 {edge}" {PROPERTIES}'
+            out = self.folder / edge
+            run = lanescape("energy", self.file("huge.xyz", frame("Ar 0 0 0", "Ar 1.25 0 0", header=header)), *ARGON, "--out", out)
+            if run.returncode == 0:
+                self.assertNotIn("null", run.stdout)
+            else:
+                self.assertIn(run.returncode, (2, 3))
+                self.assertEqual(run.stdout, "")
+                self.assertRegex(run.stderr, r"\Alanescape: [^\n]+\n\Z")
+                self.assertFalse(out.exists())
 
     def test_mixed_precision_agrees_with_double_to_its_stated_error(self):
         for name in ("ka_tiny_8", "ka_melted_108", "ka_rattled_256"):

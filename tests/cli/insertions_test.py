@@ -3,7 +3,7 @@
 import csv
 import unittest
 
-from cli_support import DATA, FLUID, GROWTH, SCAN, TAIL, ProgramTest, frame, one_object, without_seconds
+from cli_support import DATA, FLUID, GROWTH, SCAN, TAIL, ProgramTest, frame, one_object, with_options, without_seconds
 
 
 class Insertions(ProgramTest):
@@ -106,6 +106,12 @@ class Insertions(ProgramTest):
         self.assertEqual([float(r["evaluations"]) for r in rows], [r["evaluations"] for r in run["scan"]])
         pairs = list(csv.DictReader((out / "errors.csv").read_text().splitlines()))
         self.assertGreater(len(pairs), 20)
+
+    def test_rows_of_growth_without_a_density_step_have_no_means(self):
+        run = self.done(*with_options(GROWTH, "--densify", "0.42", "--rows", "10"))
+        self.assertEqual((len(run["densification"]), run["inserted"]), (10, 3))
+        self.assertEqual(run["densification"][0]["density"], None)
+        self.assertEqual(sum(row["density"] is not None for row in run["densification"]), 3)
 
     def test_growth_ends_at_the_density_asked_for_and_keeps_account_of_energy(self):
         run = self.done(*GROWTH)

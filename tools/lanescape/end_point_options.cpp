@@ -242,7 +242,7 @@ EndPoints make_end_points(const Model& model, const Configuration& start, const 
                                     {"seconds", run.pair_seconds[k]}});
   }
   if (hard) {
-    result.json["compressibility"] = run.compressibility;
+    result.json["compressibility"] = number_or_null(run.compressibility);  // no time may have passed since equilibrium
     result.json["compressibility_convention"] = "3N - 3";
     result.json["packing_fraction"] = packing_fraction(start);
   } else {

@@ -213,8 +213,9 @@ OutputFolder open_folder(const CommonOptions& common) {
 }
 
 void write_result(OutputFolder& folder, const std::string& subcommand, const toml::table& resolved, const Json& result) {
+  const std::string text = text_of_result(result);
   folder.write_run_file(subcommand, resolved);
-  folder.write("result.json", [&](std::ostream& out) { out << result.dump(2) << '\n'; });
+  folder.write("result.json", [&](std::ostream& out) { out << text << '\n'; });
   folder.keep();
 }
 
