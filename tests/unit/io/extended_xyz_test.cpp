@@ -61,21 +61,6 @@ TEST(ExtendedXyz, OtherPairsOfTheCommentLineAreKeptAsText) {
   EXPECT_EQ(result.info, expected);
 }
 
-TEST(ExtendedXyz, TheBoxMayBeWrittenWithCommasAndBrackets) {
-  for (const std::string lattice : {"[4, 0, 0, 0, 5, 0, 0, 0, 6]", "\"4, 0, 0, 0, 5, 0, 0, 0, 6\"", "[4,0,0,0,5,0,0,0,6]",
-                                    "{4 0 0 0 5 0 0 0 6}", "'4 0 0 0 5 0 0 0 6'", "[[4, 0, 0], [0, 5, 0], [0, 0, 6]]",
-                                    "[[4,0,0],[0,5,0],[0,0,6]]", "[4, 5, 6]", "\"4 5 6\"", "\"4d0 0 0 0 .5D+1 0 0 0 0.6E1\""})
-    EXPECT_EQ(read("1\nLattice=" + lattice + " Properties=species:S:1:pos:R:3\nNi 0 1 2\n").configuration.box,
-              (Box{{4.0, 5.0, 6.0}}))
-        << lattice;
-}
-
-TEST(ExtendedXyz, PeriodicAxesMayBeWrittenAsOthersDo) {
-  for (const std::string pbc : {"\"T T T\"", "[T, T, T]", "[T,T,T]", "\"T, T, T\"", "[true, true, true]", "[True, True, True]", "T",
-                                "TRUE", "[TRUE, T, true]", "\"1 1 1\"", "[1, 1, 1]", "1", "{T T T}"})
-    EXPECT_EQ(read(with_pbc(pbc)).configuration.size(), 1u) << pbc;
-}
-
 TEST(ExtendedXyz, OfARepeatedKeyTheLastValueCounts) {
   EXPECT_EQ(read("1\n" + comment + " step=1 step=2\nNi 0 1 2\n").info.at("step"), "2");
 }
