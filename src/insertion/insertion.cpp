@@ -21,6 +21,8 @@ constexpr std::size_t remembered_errors = 30;
 constexpr double least_relative_target = 1e-6;
 // Number of searches that may run at the same time. It is a constant, because no result may depend on the number of threads.
 constexpr std::size_t batch = 32;
+// Of a region, from the box: beyond, too few digits are left.
+constexpr double farthest_edges = 1000.0;
 
 constexpr EnumWord<InsertionMethod> methods[] = {{InsertionMethod::usher, "usher"},
                                                  {InsertionMethod::usher_indirect, "usher-indirect"},
@@ -47,15 +49,26 @@ RegionWall parse_region_wall(std::string_view word) { return parse_word(walls, "
 
 void Region::check(const Box& box) const {
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (!(low[axis] >= 0.0 && low[axis] < high[axis] && high[axis] <= box.length[axis]))
-      throw_bad_input(fmt::format("region from {} to {} along {} is not allowed: 0 <= from < to <= {} in this box", low[axis],
-                                  high[axis], "xyz"[axis], box.length[axis]));
+    // Halves of an edge that was read from few digits may add up to a little more.
+    if (!(low[axis] < high[axis] && high[axis] - low[axis] <= (1.0 + 1e-12) * box.length[axis] &&
+          std::max(-low[axis], high[axis]) <= farthest_edges * box.length[axis]))
+      throw_bad_input(
+          fmt::format("region from {} to {} along {} is not allowed: from < to <= from + {} in this box, at most {} edges away",
+                      low[axis], high[axis], "xyz"[axis], box.length[axis], farthest_edges));
 }
 
 bool Region::contains(const std::array<double, 3>& position) const {
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (!(position[axis] >= low[axis] && position[axis] <= high[axis])) return false;
   return true;
+}
+
+std::array<double, 3> Region::image(const Box& box, std::array<double, 3> position) const {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double centre = 0.5 * (low[axis] + high[axis]);
+    position[axis] -= box.length[axis] * std::nearbyint((position[axis] - centre) / box.length[axis]);
+  }
+  return position;
 }
 
 void InsertionOptions::check(const Box& box) const {

@@ -44,13 +44,16 @@ enum class RegionWall {
 const char* to_string(RegionWall wall);
 RegionWall parse_region_wall(std::string_view word);
 
-// A cuboid in the box, with faces parallel to the box's.
+// A cuboid with faces parallel to the box's. It is periodic with the box: it may lie across faces or in another image of the box.
 struct Region {
   std::array<double, 3> low{}, high{};  // [sigma]
 
-  // Throws Error(bad_input) unless 0 <= low < high <= L along every axis.
+  // Throws Error(bad_input) unless low < high <= low + L along every axis, not too many edges from the box.
   void check(const Box& box) const;
+  // Of this image of a position.
   bool contains(const std::array<double, 3>& position) const;
+  // The image of a position that is nearest to the region's centre. It lies in the region if any image does.
+  std::array<double, 3> image(const Box& box, std::array<double, 3> position) const;
 };
 
 struct InsertionOptions {

@@ -22,9 +22,8 @@ std::optional<Removal> choose_removal(const PairModel& model, const Configuratio
                                       std::uint64_t number, Isa isa) {
   std::vector<std::size_t> candidates;
   for (std::size_t i = 0; i < fluid.size(); ++i) {
-    std::array<double, 3> home = fluid.position(i);
-    for (std::size_t axis = 0; axis < 3; ++axis) home[axis] = fluid.box.wrapped(axis, home[axis]);
-    if (fluid.species[i] == species && (!region || region->contains(home))) candidates.push_back(i);
+    if (fluid.species[i] == species && (!region || region->contains(region->image(fluid.box, fluid.position(i)))))
+      candidates.push_back(i);
   }
   if (candidates.empty()) return std::nullopt;
   ProbeField field(model, fluid, species, kernel_table(isa));

@@ -68,18 +68,18 @@ Point InsertionSearch::start_of(std::uint64_t trial) {
 }
 
 Point InsertionSearch::clear_start() {
-  std::array<double, 3 * candidates_at_once> candidates;
-  Point last{};
+  std::array<Point, candidates_at_once> candidates{};
+  std::array<double, 3 * candidates_at_once> in_box;  // a region may lie across its faces
   for (int k = 0; k < most_candidates / static_cast<int>(candidates_at_once); ++k) {
     for (std::size_t c = 0; c < candidates_at_once; ++c) {
-      last = in_region(random_.uniform_point(number_, static_cast<std::uint32_t>(result_.candidates + c)));
-      std::copy(last.begin(), last.end(), candidates.begin() + static_cast<std::ptrdiff_t>(3 * c));
+      candidates[c] = in_region(random_.uniform_point(number_, static_cast<std::uint32_t>(result_.candidates + c)));
+      for (std::size_t axis = 0; axis < 3; ++axis) in_box[3 * c + axis] = fluid_->box().wrapped(axis, candidates[c][axis]);
     }
-    const std::size_t clear = fluid_->first_clear(clearances_, candidates);
+    const std::size_t clear = fluid_->first_clear(clearances_, in_box);
     result_.candidates += std::min(clear + 1, candidates_at_once);
-    if (clear < candidates_at_once) return {candidates[3 * clear], candidates[3 * clear + 1], candidates[3 * clear + 2]};
+    if (clear < candidates_at_once) return candidates[clear];
   }
-  return last;
+  return candidates.back();
 }
 
 void InsertionSearch::keep_inside(Point& position) const {
@@ -250,14 +250,22 @@ bool InsertionSearch::is_near(const Point& a, const Point& b) const {
   return squared < fluid_->largest_cutoff() * fluid_->largest_cutoff();
 }
 
+// The result is in the box; its image in the region may be off by rounding.
+Point InsertionSearch::place_in_region() const {
+  if (whole_box_) return result_.position;
+  Point place = region_.image(fluid_->box(), result_.position);
+  for (std::size_t axis = 0; axis < 3; ++axis) place[axis] = std::clamp(place[axis], region_.low[axis], region_.high[axis]);
+  return place;
+}
+
 void InsertionSearch::follow(const std::vector<Point>& inserted, double constant_growth) {
   if (!result_.found || inserted.empty()) return;
-  Site site{result_.position, result_.energy + constant_growth, {}, 0.0};
+  Site site{place_in_region(), result_.energy + constant_growth, {}, 0.0};
   const bool disturbed =
       std::any_of(inserted.begin(), inserted.end(), [&](const Point& p) { return is_near(p, result_.position); });
   if (disturbed || !accepted(site)) {
     spent_ = 0;
-    site = probe(result_.position);
+    site = probe(site.position);
     result_.found = trial(site);
   }
   if (result_.found)

@@ -50,6 +50,7 @@ class InsertionSearch {
   Point start_of(std::uint64_t trial);
   Point clear_start();
   Point in_region(const Point& fraction) const;
+  Point place_in_region() const;
   void keep_inside(Point& position) const;
   bool accepted(const Site& site) const;
   bool can_go_on(const Site& site) const;

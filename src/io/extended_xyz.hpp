@@ -35,6 +35,9 @@ class ExtendedXyzReader {
   explicit ExtendedXyzReader(std::filesystem::path path, SizeColumn size = SizeColumn::ignored);
   // The next frame; nothing at the end of the file. A file without any frame is refused.
   std::optional<Frame> next();
+  // Whether another frame follows, for callers that need no more: it is not read and may be incomplete. Refuses other text, which
+  // shows that the frame before has more particles than it announces. next() cannot be called any more.
+  bool another_begins();
   // The species there are; of a reader that accepts any, those met so far.
   const Mixture& mixture() const { return mixture_; }
 

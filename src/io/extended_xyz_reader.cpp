@@ -16,7 +16,8 @@ using namespace xyz;
 
 constexpr std::size_t most_particles = 10'000'000;
 constexpr std::size_t longest_line = std::size_t{1} << 20;  // [bytes]; keeps a file without line ends out of memory
-constexpr std::size_t most_species = 118;                   // of a reader that accepts any; there are no more elements
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+constexpr std::size_t most_species = 118;  // of a reader that accepts any; there are no more elements
 
 int parse_species(std::string_view word, const Mixture& mixture) {
   for (std::size_t s = 0; s < mixture.species.size(); ++s)
@@ -70,6 +71,7 @@ std::optional<std::string_view> ExtendedXyzReader::next_line() {
 std::size_t ExtendedXyzReader::line_of_count() {
   while (const auto line = next_line()) {
     std::string_view rest = *line;
+    if (line_ == 1 && rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());
     const std::string_view word = take_word(rest);
     if (word.empty()) continue;
     const auto count = parse<std::size_t>(word);
@@ -117,10 +119,11 @@ std::optional<Frame> ExtendedXyzReader::next() {
   try {
     const auto comment = next_line();
     if (!comment) refuse(fmt::format("the file ends before the comment line: {} particles are announced", count));
-    frame.info = parse_comment(*comment);
-    frame.configuration.box = parse_lattice(take_key(frame.info, "lattice", "Lattice=\"Lx 0 0 0 Ly 0 0 0 Lz\""));
-    const Columns columns = parse_properties(take_key(frame.info, "properties", properties_example(size_).c_str()), size_);
-    if (const auto pbc = frame.info.extract("pbc")) check_periodic(pbc.mapped());
+    Comment pairs = parse_comment(*comment);
+    frame.info = std::move(pairs.info);
+    frame.configuration.box = parse_lattice(required(pairs.lattice, "Lattice=\"Lx 0 0 0 Ly 0 0 0 Lz\""));
+    const Columns columns = parse_properties(required(pairs.properties, properties_example(size_)), size_);
+    if (pairs.periodic) check_periodic(*pairs.periodic);
     read_particles(count, columns, frame.configuration);
   } catch (const Refusal& refusal) {
     refuse(refusal.message);
@@ -129,10 +132,13 @@ std::optional<Frame> ExtendedXyzReader::next() {
   return frame;
 }
 
+bool ExtendedXyzReader::another_begins() { return line_of_count() > 0; }
+
 Frame read_single_frame(const std::filesystem::path& path, const Mixture& mixture, SizeColumn size) {
   ExtendedXyzReader reader(path, mixture, size);
   std::optional<Frame> frame = reader.next();
-  if (reader.next()) throw_bad_input(fmt::format("{}: the file holds more than one frame: exactly one is allowed", path.string()));
+  if (reader.another_begins())
+    throw_bad_input(fmt::format("{}: the file holds more than one frame: exactly one is allowed", path.string()));
   return std::move(*frame);
 }
 

@@ -39,7 +39,8 @@ double TomlReader::number(const toml::node& node, std::string_view key, const Nu
 
 std::string TomlReader::text(const toml::node& node, std::string_view key) const {
   const auto value = node.value_exact<std::string>();
-  if (!value || value->empty()) refuse(node, fmt::format("{} is not allowed: a text in quotes is needed", key));
+  if (!value) refuse(node, fmt::format("{} is no text: a text in quotes is needed", key));
+  if (value->empty()) refuse(node, fmt::format("{} = \"\" is not allowed: a text with at least one character is needed", key));
   return *value;
 }
 

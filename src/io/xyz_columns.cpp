@@ -70,7 +70,7 @@ Columns parse_properties(std::string_view text, SizeColumn size) {
   if (parts.size() % 3 != 0)
     throw Refusal{fmt::format("Properties {} is not allowed: {}", printable(text), allowed_properties(size))};
   Columns columns;
-  int species = 0, positions = 0, sizes = 0;
+  std::size_t species = 0, positions = 0, sizes = 0;
   for (std::size_t p = 0; p < parts.size(); p += 3) {
     const Entry entry{parts[p], parts[p + 1], parts[p + 2]};
     check_entry(entry, columns.count, size);
@@ -80,12 +80,12 @@ Columns parse_properties(std::string_view text, SizeColumn size) {
     columns.count += *entry.width();
   }
   if (species != 1 || positions != 1)
-    throw Refusal{fmt::format("Properties {} has species {} times and pos {} times: {}, each once", printable(text), species,
-                              positions, allowed_properties(size))};
+    throw Refusal{fmt::format("Properties {} has species {} and pos {}: {}, each once", printable(text), counted(species, "time"),
+                              counted(positions, "time"), allowed_properties(size))};
   if (size != SizeColumn::ignored && sizes != 1)
-    throw Refusal{fmt::format("Properties {} has {} {} times: {} need {}:R:1 once, each value finite and above 0", printable(text),
-                              name_of(size), sizes, size == SizeColumn::radius ? "hard spheres" : "polydisperse models",
-                              name_of(size))};
+    throw Refusal{fmt::format("Properties {} has {} {}: {} need {}:R:1 once, each value finite and above 0", printable(text),
+                              name_of(size), counted(sizes, "time"),
+                              size == SizeColumn::radius ? "hard spheres" : "polydisperse models", name_of(size))};
   return columns;
 }
 
@@ -101,7 +101,7 @@ Particle parse_particle(std::string_view line, const Columns& columns, SizeColum
     }
   }
   if (column != columns.count)
-    throw Refusal{fmt::format("a particle line of {} columns is not allowed: Properties has {}", column, columns.count)};
+    throw Refusal{fmt::format("a particle line of {} is not allowed: Properties has {}", counted(column, "column"), columns.count)};
   return particle;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -10,15 +11,19 @@
 // The second line of a frame: key=value pairs, three of them with a meaning.
 namespace lanescape::xyz {
 
-using Info = std::map<std::string, std::string>;
-
-// All pairs of a comment line; the three keys with a meaning, lattice, properties and pbc, come in lower case.
-Info parse_comment(std::string_view rest);
-// Takes a pair out of `info`; `example` is what a message asks for where there is none.
-std::string take_key(Info& info, const char* key, const char* example);
-// The value of Lattice.
+// The values of a comment line. Lattice, Properties and pbc may be written in other cases, unless the usual spelling is there too:
+// `lattice=fcc` beside `Lattice="..."` is an ordinary key. Where one of the three is repeated, the values must be the same. Of
+// other keys the last value counts.
+struct Comment {
+  std::optional<std::string> lattice, properties, periodic;
+  std::map<std::string, std::string> info;  // all other pairs
+};
+Comment parse_comment(std::string_view rest);
+// The value; `example` is what the message asks for where there is none.
+const std::string& required(const std::optional<std::string>& value, const std::string& example);
+// The value of Lattice: nine numbers, or the three edges. Blanks, commas and brackets separate them.
 Box parse_lattice(std::string_view text);
-// The value of pbc.
+// The value of pbc: three of T, true or 1, or one for all axes.
 void check_periodic(std::string_view text);
 
 // Adds " key=value" in quotes where needed; throws Error(bad_input) for what could not be read back.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <charconv>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,6 +21,8 @@ struct Refusal {
 // Text of the file as part of a one-line message: cut to 40 characters, without control characters.
 std::string printable(std::string_view text);
 std::string lower(std::string_view text);
+// "1 column", "2 columns".
+std::string counted(std::size_t count, std::string_view what);
 void skip_blanks(std::string_view& rest);
 // Cuts the first word off `rest`; empty at the end.
 std::string_view take_word(std::string_view& rest);
@@ -34,6 +37,8 @@ std::optional<Number> parse(std::string_view word) {
   return value;
 }
 
+// As parse<double>(), but also Fortran's exponents, 1d0, and numbers so small that they round to zero.
+std::optional<double> parse_real(std::string_view word);
 double parse_finite(std::string_view word, std::string_view what);
 double parse_positive(std::string_view word, std::string_view what);
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "configuration/model_traits.hpp"
 #include "core/error.hpp"
 #include "dispatch/isa.hpp"
@@ -27,6 +29,16 @@ void check_end_points(const ConfigurationPair& pair, const Model& model, const s
       throw Error(error.code(), fmt::format("{}, {} end: {}", where, end == &pair.start ? "first" : "last", error.what()));
     }
   }
+}
+
+bool looks_wrapped(const ConfigurationPair& pair) {
+  bool crosses = false;
+  for (std::size_t k = 0; k < pair.start.positions.size(); ++k) {
+    const double edge = pair.start.box.length[k % 3], from = pair.start.positions[k], to = pair.finish.positions[k];
+    if (!(from >= 0.0 && from <= edge && to >= 0.0 && to <= edge)) return false;
+    crosses = crosses || std::abs(to - from) > 0.5 * edge;
+  }
+  return crosses;
 }
 
 }  // namespace lanescape

@@ -21,4 +21,11 @@ struct ConfigurationPair {
 // with `where`.
 void check_end_points(const ConfigurationPair& pair, const Model& model, const std::string& where);
 
+// Whether both ends look wrapped, and a wrong distance is the likely consequence. Ends of a pair are unwrapped: the distance and
+// the path follow plain differences of positions. Two signs together make the pair suspicious. All coordinates of both frames lie
+// within 0 <= x <= L, faces included, since files with few digits round up to them; unwrapped positions leave that box once
+// particles have diffused. And some particle moves by more than half an edge along an axis, which in wrapped frames is the trace of
+// a crossed face; without such a particle, wrapping has changed nothing that shows.
+bool looks_wrapped(const ConfigurationPair& pair);
+
 }  // namespace lanescape

@@ -1,7 +1,6 @@
 #include "run/end_point_run.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -34,7 +33,8 @@ class EndPointWork : public ResumableWork {
     do {
       const std::size_t pairs_before = generator_.pairs().size();
       step();
-      if (generator_.pairs().size() > pairs_before) time_pair();
+      if (generator_.pairs().size() > pairs_before) pair_seconds_.push_back(seconds_now() - pair_began_);
+      if (generator_.phase() == Generator::Phase::pair && generator_.phase_done() == 0) pair_began_ = seconds_now();
     } while (!generator_.ended() && !at_chunk_end());
     if (at_chunk_end()) end_chunk();
     const std::string_view phase = Generator::name(generator_.phase());
@@ -48,6 +48,7 @@ class EndPointWork : public ResumableWork {
     trace_.exchange(archive);
     radial_distribution_.exchange(archive);
     archive.field("pair_seconds", pair_seconds_);
+    archive.field("pair_began", pair_began_);
   }
 
   const Generator& generator() const { return generator_; }
@@ -65,12 +66,13 @@ class EndPointWork : public ResumableWork {
   RadialDistribution radial_distribution_;
 
  private:
-  void time_pair() {
+  double seconds_now() {
     clock_.lap();
-    pair_seconds_.push_back(clock_.seconds() - std::accumulate(pair_seconds_.begin(), pair_seconds_.end(), 0.0));
+    return clock_.seconds();
   }
 
   double distance_;
+  double pair_began_ = 0.0;  // on the clock, which earlier parts of a resumed run have advanced too [s]
   std::vector<double> pair_seconds_;
 };
 

@@ -23,7 +23,7 @@ struct EndPointRunResult {
   bool done = false, interrupted = false;
   std::string ended_as;  // the phase it ended in
   std::vector<ConfigurationPair> pairs{};
-  std::vector<double> pair_seconds{};  // computing time since the pair before, equilibration included
+  std::vector<double> pair_seconds{};  // computing time from start to finish of each pair, as its steps
   double temperature = 0.0;            // soft: mean since equilibrium, 3N convention
   double compressibility = 0.0;        // hard: Z since equilibrium, 3N - 3 convention
   double seconds = 0.0;

@@ -62,7 +62,8 @@ class BadFiles(ProgramTest):
         two, moved = frame(*TWO), frame(*TWO_MOVED)
         other_box = frame(*TWO_MOVED, header=HEADER.replace('"4 0', '"4.1 0'))
         more = frame(*TWO_MOVED, "Ar 2 2 2")
-        for name, content, words in (("one frame", two, "1 frame"), ("three frames", two + moved + two, "3 frames"),
+        for name, content, words in (("one frame", two, "holds one frame"),
+                                     ("three frames", two + moved + two, "more than two frames"),
                                      ("other box", two + other_box, "box"), ("more particles", two + more, "composition"),
                                      ("no way between", two + two, "coincide")):
             with self.subTest(name):
@@ -80,6 +81,22 @@ class BadFiles(ProgramTest):
                     good.replace("[[pair]]", "[pair"), bytes(range(256)).decode("latin-1")):
             with self.subTest(bad):
                 self.refused_cleanly("energy", two, "--model-file", self.file("model.toml", bad), says="model.toml")
+
+    def test_an_empty_name_is_refused_as_such(self):
+        two = self.file("two.xyz", frame(*TWO))
+        good = 'kind = "lennard-jones"\nname = "a"\n[[species]]\nname = "Ar"\n[[pair]]\nspecies = ["Ar", "Ar"]\nepsilon = 1.0\nsigma = 1.0\n'
+        for bad, words in ((good.replace('"a"', '""'), 'model.toml:2: name = "" is not allowed: a text with at least one character'),
+                           (good.replace('"Ar"\n[[p', '""\n[[p'), 'model.toml:4: name = "" is not allowed'),
+                           (good.replace('"a"', "3"), "model.toml:2: name is no text: a text in quotes is needed")):
+            self.refused_cleanly("energy", two, "--model-file", self.file("model.toml", bad), says=words)
+
+    def test_numbers_too_small_for_a_double_are_zero(self):
+        small = self.done("energy", self.file("small.xyz", frame("Ar 1e-999 0 -1e-999", "Ar 1.1 0 0")), *ARGON)
+        self.assertEqual(small, self.done("energy", self.file("two.xyz", frame(*TWO)), *ARGON))
+
+    def test_a_key_without_a_value_leaves_the_next_key_whole(self):
+        empty = self.done("energy", self.file("empty.xyz", frame(*TWO, header="config_type= " + HEADER)), *ARGON)
+        self.assertEqual(empty, self.done("energy", self.file("two.xyz", frame(*TWO)), *ARGON))
 
 
 if __name__ == "__main__":

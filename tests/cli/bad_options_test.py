@@ -20,6 +20,23 @@ class BadOptions(ProgramTest):
                         word = option[2:].replace("-", " ").split()[-1].rstrip("s")
                         self.refused_cleanly(subcommand, "--model", "lennard-jones", *arguments, says=word)
 
+    def test_texts_that_are_no_numbers_are_refused_with_the_option_and_what_is_needed(self):
+        needed = {("--cutoff", "2,5"): "a number is needed", ("--cutoff", "x"): "a number is needed", ("--cutoff", ""): "a number is needed",
+                  ("--density", "1.2x"): "a number is needed", ("--particles", "1e3"): "a whole number without a sign in plain digits is needed",
+                  ("--particles", "-5"): "a whole number without a sign in plain digits is needed",
+                  ("--particles", "10000000000000000000000"): "too large", ("--threads", "1.5"): "a whole number in plain digits is needed",
+                  ("--threads", "x"): "a whole number in plain digits is needed", ("--threads", "99999999999"): "too large"}
+        for (option, value), words in needed.items():
+            with self.subTest(f"{option} {value}"):
+                said = self.refused("endpoints", "--model", "lennard-jones", option, value, says=(f"{option}: '{value}' is not allowed: ", words))
+                self.assertNotIn("18446744073709551615", said)
+        self.refused("insert", DATA / "ar_dilute_63.extxyz", *ARGON[:2], "--region", "0,x,0,1,0,1", says=("--region: 'x'", "a number is needed"))
+
+    def test_no_particles_are_refused_as_such_where_the_distance_depends_on_them(self):
+        for subcommand in ("endpoints", "path", "diffusion"):
+            for model in ("lennard-jones", "hard-sphere", "ucg"):
+                self.refused_cleanly(subcommand, "--model", model, "--particles", "0", says="0 particles are not allowed: from 1 to")
+
     def test_cutoffs_out_of_range_are_refused(self):
         for value in ("0", "-1", "nan", "inf", "1e12", "1e308", "x"):
             for backend in ("simd", "reference"):

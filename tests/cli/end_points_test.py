@@ -32,6 +32,11 @@ class EndPoints(ProgramTest):
             moved = ends[1] - ends[0]
             self.assertAlmostEqual(numpy.linalg.norm(moved - moved.mean(axis=0)), pair["distance"], delta=1e-12)
 
+    def test_seconds_of_a_pair_are_without_equilibration(self):
+        run = self.done("endpoints", *ARGON, *with_options(TINY, "--melt-steps", "300000"))
+        self.assertGreater(run["pairs"][0]["seconds"], 0.0)
+        self.assertLess(run["pairs"][0]["seconds"], 0.5 * run["seconds"])
+
     def test_without_out_pairs_have_no_file(self):
         self.assertEqual([p["file"] for p in self.done("endpoints", *ARGON, *TINY)["pairs"]], [None])
 

@@ -8,7 +8,7 @@ import unittest
 
 import numpy
 
-from cli_support import DATA, ARGON, TINY, FLUID, PROPERTIES, TWO, TWO_MOVED, ProgramTest, frame
+from cli_support import DATA, ARGON, TINY, FLUID, PROPERTIES, TWO, TWO_MOVED, ProgramTest, frame, lanescape
 
 
 class Energy(ProgramTest):
@@ -35,6 +35,41 @@ class Energy(ProgramTest):
         self.assertEqual((result["particles"], result["model"], result["images"]), (108, "kob-andersen", "all"))
         self.assertEqual(result["energy_per_particle"], result["energy"] / 108)
         self.assertEqual(len(result["stress"]), 6)
+
+    def test_files_of_other_programs_are_read(self):
+        own = frame("Ni 0 1 2", "P -3.5 0.25 17", "Ni 1.5 4.75 0.125", "Ni 3 2.5 5", header=f'Lattice="4 0 0 0 5 0 0 0 6" {PROPERTIES}')
+        expected = self.done("energy", self.file("own.xyz", own), "--forces")
+        for file in sorted((DATA / "foreign").iterdir()):
+            with self.subTest(file.name):
+                self.assertEqual(self.done("energy", file, "--forces"), expected)
+
+    def test_frames_that_are_not_used_need_not_be_whole(self):
+        expected = self.done("energy", self.file("whole.xyz", frame(*TWO)), *ARGON)
+        for more in (frame(*TWO)[:-6], "2\n", "2\nno box\nAr"):
+            with self.subTest(more):
+                self.assertEqual(self.done("energy", self.file("cut.xyz", frame(*TWO) + more), *ARGON), expected)
+
+    def test_no_zero_is_negative(self):
+        far = self.file("far.xyz", frame("Ar 0 0 0", "Ar 6 6 6", header=f'Lattice="12 0 0 0 12 0 0 0 12" {PROPERTIES}'))
+        for name in (far, self.file("two.xyz", frame(*TWO))):
+            for backend in ("simd", "reference"):
+                run = lanescape("energy", name, *ARGON, "--forces", "--backend", backend, "--out", self.folder / f"{name.name}{backend}")
+                self.assertEqual(run.returncode, 0)
+                self.assertNotRegex(run.stdout, r"-0\.0\b")
+                self.assertEqual((self.folder / f"{name.name}{backend}" / "result.json").read_text(), run.stdout)
+
+    def test_a_result_that_is_not_finite_is_never_printed(self):
+        for edge in ("1e30", "1e160", "1e307"):
+            header = f'Lattice="{edge} 0 0 0 {edge} 0 0 0 {edge}" {PROPERTIES}'
+            out = self.folder / edge
+            run = lanescape("energy", self.file("huge.xyz", frame("Ar 0 0 0", "Ar 1.25 0 0", header=header)), *ARGON, "--out", out)
+            if run.returncode == 0:
+                self.assertNotIn("null", run.stdout)
+            else:
+                self.assertIn(run.returncode, (2, 3))
+                self.assertEqual(run.stdout, "")
+                self.assertRegex(run.stderr, r"\Alanescape: [^\n]+\n\Z")
+                self.assertFalse(out.exists())
 
     def test_mixed_precision_agrees_with_double_to_its_stated_error(self):
         for name in ("ka_tiny_8", "ka_melted_108", "ka_rattled_256"):

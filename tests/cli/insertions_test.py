@@ -3,7 +3,7 @@
 import csv
 import unittest
 
-from cli_support import DATA, FLUID, GROWTH, SCAN, TAIL, ProgramTest, frame, one_object, without_seconds
+from cli_support import DATA, FLUID, GROWTH, SCAN, TAIL, ProgramTest, frame, one_object, with_options, without_seconds
 
 
 class Insertions(ProgramTest):
@@ -42,6 +42,19 @@ class Insertions(ProgramTest):
                 self.assertEqual(len(insertion["velocity"]), 3)
                 for axis, x in enumerate(insertion["position"]):
                     self.assertTrue(region[2 * axis] <= x <= region[2 * axis + 1])
+
+    def test_a_region_may_cross_faces_and_be_given_around_the_origin(self):
+        lattice = [float(x) for x in self.fluid.read_text().split('Lattice="')[1].split('"')[0].split()][::4]
+        for wall in ("reflect", "well"):
+            region = f"-1.5,1.5,{-lattice[1] / 2},{lattice[1] / 2},{lattice[2] - 1},{lattice[2] + 2}"
+            run = self.done("insert", self.fluid, *TAIL, "--count", "10", "--wall", wall, f"--region={region}")
+            for x, y, z in (insertion["position"] for insertion in run["insertions"]):
+                self.assertTrue(0 <= x <= 1.5 + 1e-9 or lattice[0] - 1.5 - 1e-9 <= x < lattice[0], x)
+                self.assertTrue(0 <= y < lattice[1], y)
+                self.assertTrue(0 <= z <= 2 + 1e-9 or lattice[2] - 1 - 1e-9 <= z < lattice[2], z)
+            self.assertEqual(len({insertion["position"][0] > 2 for insertion in run["insertions"]}), 2)
+        plain = self.done("insert", self.fluid, *TAIL, "--region", region)
+        self.assertEqual(without_seconds(plain), without_seconds(self.done("insert", self.fluid, *TAIL, f"--region={region}")))
 
     def test_species_are_inserted_and_removed(self):
         mixture = DATA / "ka_dilute_50.extxyz"
@@ -93,6 +106,12 @@ class Insertions(ProgramTest):
         self.assertEqual([float(r["evaluations"]) for r in rows], [r["evaluations"] for r in run["scan"]])
         pairs = list(csv.DictReader((out / "errors.csv").read_text().splitlines()))
         self.assertGreater(len(pairs), 20)
+
+    def test_rows_of_growth_without_a_density_step_have_no_means(self):
+        run = self.done(*with_options(GROWTH, "--densify", "0.42", "--rows", "10"))
+        self.assertEqual((len(run["densification"]), run["inserted"]), (10, 3))
+        self.assertEqual(run["densification"][0]["density"], None)
+        self.assertEqual(sum(row["density"] is not None for row in run["densification"]), 3)
 
     def test_growth_ends_at_the_density_asked_for_and_keeps_account_of_energy(self):
         run = self.done(*GROWTH)

@@ -51,6 +51,18 @@ class Paths(ProgramTest):
         self.assertEqual((self.folder / "made" / "pair-0001.extxyz").read_bytes(), Path(pair).read_bytes())
         self.assertIsNone(given["standard_error"])
 
+    def test_wrapped_end_points_cause_one_line_of_warning(self):
+        wrapped = self.file("wrapped.xyz", frame("Ar 0.2 0 0", "Ar 2 2 2") + frame("Ar 3.8 0 0", "Ar 2 2 2"))
+        unwrapped = self.file("unwrapped.xyz", frame("Ar 0.2 0 0", "Ar 2 2 2") + frame("Ar -0.2 0 0", "Ar 2 2 2"))
+        for file, distance, stderr in ((wrapped, 3.6, r"\A\S*wrapped.xyz: warning: [^\n]* look wrapped, [^\n]*unwrapped[^\n]*\n\Z"),
+                                       (unwrapped, 0.4, r"\A\Z")):
+            run = lanescape("path", *ARGON, "--pair", file)
+            self.assertEqual(run.returncode, 0)
+            self.assertAlmostEqual(one_object(run.stdout)["paths"][0]["distance"], distance)
+            self.assertRegex(run.stderr, stderr)
+        self.assertEqual(lanescape("path", *ARGON, "--pair", wrapped, "--quiet").stderr, "")
+        self.refused_cleanly("path", *ARGON, "--pair", wrapped, "--max-steps", "0", says="limit")
+
     def test_results_do_not_depend_on_the_number_of_threads(self):
         arguments = ("path", *ARGON, *FLUID, "--pairs", "3", "--reverse")
         one, two = (self.done(*arguments, "--threads", n, "--out", self.folder / n) for n in ("1", "2"))

@@ -91,7 +91,7 @@ class UnusedOptions(ProgramTest):
 
     def test_of_a_name_besides_a_model_file(self):
         model = EXAMPLES / "liquid_vapour.toml"
-        self.all_refused(("energy", FLUID, "--model-file", model), ("--model=lennard-jones",), "with --model-file")
+        self.all_refused(("energy", FLUID, "--model-file", model), ("--model=lennard-jones", "--model=kob-andersen"), "with --model-file")
 
     def test_a_run_file_may_hold_defaults_of_options_without_an_effect_but_no_other_values(self):
         """Run files of earlier versions contain all options."""

@@ -40,7 +40,7 @@ Json run_overlap(OverlapState& state, const Options& options, int& status) {
   result["pairs"] = Json::array();
   for (const auto& [i, j] : pairs) result["pairs"].push_back({i, j, sphere_gap(spheres, i, j)});
   const double smallest = overlap.smallest_gap(positions);
-  result["smallest_gap"] = std::isfinite(smallest) ? Json(smallest) : Json();
+  result["smallest_gap"] = number_or_null(smallest);
   result["particles"] = spheres.size();
   result["packing_fraction"] = packing_fraction(spheres);
   result["isa"] = to_string(isa);

@@ -71,10 +71,14 @@ void scale_radii(ConfigurationPair& pair, double tolerance, const std::string& w
 
 ConfigurationPair read_pair(const std::filesystem::path& file, const Model& model, double tolerance) {
   const bool hard = is_hard(model);
-  std::vector<Frame> frames = read_frames(file, mixture_of(model), traits_of(model).sizes);
-  if (frames.size() != 2)
-    throw_bad_input(fmt::format("{}: holds {} frames: a pair of end points is two", file.string(), frames.size()));
-  ConfigurationPair pair{std::move(frames[0].configuration), std::move(frames[1].configuration)};
+  ExtendedXyzReader reader(file, mixture_of(model), traits_of(model).sizes);
+  ConfigurationPair pair;
+  pair.start = reader.next()->configuration;
+  std::optional<Frame> second = reader.next();
+  if (!second || reader.another_begins())
+    throw_bad_input(fmt::format("{}: holds {}: a pair of end points is two frames", file.string(),
+                                second ? "more than two frames" : "one frame"));
+  pair.finish = std::move(second->configuration);
   if (hard) scale_radii(pair, tolerance, file.string());
   check_end_points(pair, model, file.string());
   for (std::size_t k = 0; k < pair.start.positions.size(); ++k)
@@ -84,7 +88,7 @@ ConfigurationPair read_pair(const std::filesystem::path& file, const Model& mode
 
 // The factor of scale_radii() when the pair was kept.
 double kept_radius_factor(const std::filesystem::path& file, const Model& model) {
-  const auto info = read_frames(file, mixture_of(model)).front().info;
+  const auto info = ExtendedXyzReader(file, mixture_of(model)).next()->info;
   const auto found = info.find(radius_factor_key);
   return found == info.end() ? 1.0 : std::stod(found->second);
 }
@@ -204,6 +208,14 @@ PathInput read_input(PathState& state, const Model& model, Isa isa) {
   return input;
 }
 
+void warn_of_wrapped_pairs(const PathState& state, const std::vector<ConfigurationPair>& pairs) {
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    if (looks_wrapped(pairs[k]))
+      say(state.common, fmt::format("{}: warning: both end points lie in one box, and a particle moves by more than half an edge: "
+                                    "they look wrapped, and the distance {} is then wrong; unwrapped positions are needed",
+                                    state.pair_files[k], pairs[k].distance));
+}
+
 // The paths found, in JSON; whether all reached their goal.
 bool add_paths(Json& json, const std::vector<PathResult>& paths, const PathMethod& method, const Mixture& mixture) {
   json["paths"] = Json::array();
@@ -267,6 +279,7 @@ Json run_path(PathState& state, Options& options, int& status) {
 
   OutputFolder folder = open_folder(state.common);
   folder.write_run_file("path", options.resolved());
+  warn_of_wrapped_pairs(state, input.pairs);
   Ends ends = take_ends(state, model, std::move(input), path_options.precision, isa, folder);
   Json result;
   if (!ends.json.is_null()) result["endpoints"] = std::move(ends.json);
@@ -289,7 +302,10 @@ Json run_path(PathState& state, Options& options, int& status) {
 Subcommand add_path(CLI::App& app) {
   const auto options = std::make_shared<Options>(app, "path", "Find geodesics between pairs of end points");
   const auto state = std::make_shared<PathState>();
-  options->add("--pair", state->pair_files, "files with two frames, the end points; without any, pairs are made as by endpoints");
+  options->add(
+      "--pair", state->pair_files,
+      "files with two frames, the end points, unwrapped (with a warning if they look wrapped); without any, pairs are made as by "
+      "endpoints");
   options->add("--method", state->method,
                fmt::format("{}; {} for hard spheres [{}, {}]", path_method_words(false, " or "), path_method_words(true, " or "),
                            default_path_method(false).word, default_path_method(true).word));

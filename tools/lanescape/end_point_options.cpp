@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -139,7 +140,8 @@ void EndPointSetup::settle(const Model& model) {
 }
 
 Configuration EndPointSetup::start(const Model& model, const CommonOptions& common, Isa isa) {
-  resolve(model, particles_, common.seed);  // refuses values out of range before any work
+  // Refuses values out of range before any work; the start refuses 0 particles, which have no distance to speak of.
+  resolve(model, std::max<std::uint64_t>(particles_, 1), common.seed);
   const auto soft_start = [&](const auto& soft) {
     return start_file_.empty() ? fcc_start(soft, particles_, density_.value_or(1.2), common.seed)
                                : read_first_frame(start_file_, model);
@@ -240,7 +242,7 @@ EndPoints make_end_points(const Model& model, const Configuration& start, const 
                                     {"seconds", run.pair_seconds[k]}});
   }
   if (hard) {
-    result.json["compressibility"] = run.compressibility;
+    result.json["compressibility"] = number_or_null(run.compressibility);  // no time may have passed since equilibrium
     result.json["compressibility_convention"] = "3N - 3";
     result.json["packing_fraction"] = packing_fraction(start);
   } else {
@@ -251,7 +253,7 @@ EndPoints make_end_points(const Model& model, const Configuration& start, const 
   result.json["seconds"] = run.seconds;
   if (folder.exists()) write_equilibration(folder, run, mixture_of(model));
   result.reached = run.done;
-  if (!result.reached && !run.interrupted) say(common, fmt::format("{}: {} pairs were made", run.ended_as, run.pairs.size()));
+  if (!result.reached && !run.interrupted) say(common, fmt::format("{}: pairs made: {}", run.ended_as, run.pairs.size()));
   return result;
 }
 

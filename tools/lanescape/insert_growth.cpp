@@ -34,13 +34,14 @@ FluidState growth_start(const InsertState& state, const PairModel& model, double
   return start;
 }
 
+// Means over density steps are undefined in a row without any.
 ResultRow row_of(const DensificationRow& r) {
-  return {{"time", r.time},
-          {"density", r.density},
-          {"temperature", r.temperature},
-          {"pressure", r.pressure},
-          {"excess_energy", r.excess_energy},
-          {"energy", r.energy},
+  return {{"time", number_or_null(r.time)},
+          {"density", number_or_null(r.density)},
+          {"temperature", number_or_null(r.temperature)},
+          {"pressure", number_or_null(r.pressure)},
+          {"excess_energy", number_or_null(r.excess_energy)},
+          {"energy", number_or_null(r.energy)},
           {"inserted_energy", r.inserted_energy},
           {"evaluations", r.evaluations},
           {"drift", r.drift}};

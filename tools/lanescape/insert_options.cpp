@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
 namespace lanescape::program {
 
@@ -18,7 +17,7 @@ void InsertionSetup::add_to(Options& options) {
   options.add("--largest-step", largest_step, "[0.1 density^(-3/2)]");
   options.add("--traverse-step", traverse_step, "of descent, after a line minimisation");
   options.add("--clear-energy", clear_energy, "of screened: no particle alone repels a start by more");
-  options.add("--region", region, "x0,x1,y0,y1,z0,z1: a part of the box to search in [all of it]");
+  options.add("--region", region, "x0,x1,y0,y1,z0,z1: a part of the box to search in, also across its faces [all of it]");
   options.add("--wall", wall, "of the region: reflect, or well: a force back");
   options.add("--species", species, "of the inserted particles [the first]");
   options.add("--most-trials", most_trials, "starts of a search until it is given up");
@@ -37,11 +36,8 @@ std::vector<std::string> list_of(const std::string& text, const char* option) {
 }
 
 double number_of(const std::string& text, const char* option) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw_bad_input(fmt::format("{}: '{}' is not allowed: a number is needed", option, text));
-  return value;
+  if (const std::optional<double> value = number_in(text)) return *value;
+  throw_bad_input(fmt::format("{}: '{}' is not allowed: a number is needed", option, text));
 }
 
 InsertionOptions InsertionSetup::resolve(std::uint64_t seed) const {
@@ -72,9 +68,7 @@ int InsertionSetup::species_index(const Mixture& mixture) const { return species
 
 std::optional<double> InsertionSetup::number(const std::vector<std::string_view>& words) const {
   if (std::find(words.begin(), words.end(), energy) != words.end()) return std::nullopt;
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(energy.data(), energy.data() + energy.size(), value);
-  if (error == std::errc() && end == energy.data() + energy.size()) return value;
+  if (const std::optional<double> value = number_in(energy)) return value;
   throw_bad_input(fmt::format("--energy: '{}' is not allowed: a number or {} is needed", energy, fmt::join(words, " or ")));
 }
 

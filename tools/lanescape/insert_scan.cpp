@@ -74,8 +74,8 @@ ResultRow row_of(const ScanStateRow& r) {
           {"measured_temperature", r.measured_temperature},
           {"excess_energy", r.excess_energy},
           {"pressure", r.pressure},
-          {"chemical_potential", r.chemical_potential},
-          {"chemical_potential_error", r.chemical_potential_error}};
+          {"chemical_potential", number_or_null(r.chemical_potential)},
+          {"chemical_potential_error", number_or_null(r.chemical_potential_error)}};
 }
 
 ResultRow row_of(const ScanHoleRow& r) {

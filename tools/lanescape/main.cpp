@@ -44,7 +44,7 @@ int run(std::vector<std::string> arguments) {
     if (!subcommand.app->parsed()) continue;
     int status = done;
     const Json result = subcommand.run(status);
-    std::cout << result.dump(2) << std::endl;
+    std::cout << text_of_result(result) << std::endl;
     if (std::cout) return status;
     complain("stdout: the result cannot be written");
     return internal_error;

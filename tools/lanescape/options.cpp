@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -16,15 +17,22 @@
 namespace lanescape::program {
 namespace {
 
-// What is wrong with the text of a number; empty if nothing is, as CLI11 wants it.
-std::string count_fault(const std::string& text) {
-  std::uint64_t value = 0;
+// What is wrong with the text of a whole number; empty if nothing is, as CLI11 wants it. The range that an option allows is checked
+// where it is known.
+template <class Integer>
+std::string whole_number_fault(const std::string& text) {
+  Integer value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool sound = error == std::errc() && end == text.data() + text.size();
-  return sound ? "" : "'" + text + "' is not allowed: a whole number from 0 to 18446744073709551615 is needed";
+  if (end != text.data() + text.size() || text.empty() || error == std::errc::invalid_argument)
+    return fmt::format("'{}' is not allowed: a whole number {}in plain digits is needed", text,
+                       std::is_unsigned_v<Integer> ? "without a sign " : "");
+  if (error != std::errc()) return fmt::format("'{}' is not allowed: it is too large for any count", text);
+  return "";
 }
 
-std::string number_fault(const std::string& text) { return text.empty() ? "'' is not allowed: a number is needed" : ""; }
+std::string number_fault(const std::string& text) {
+  return number_in(text) ? "" : fmt::format("'{}' is not allowed: a number is needed, such as 2.5 or 1e-3", text);
+}
 
 template <class T>
 void write(toml::table& table, const std::string& key, const T& value) {
@@ -54,6 +62,13 @@ void write(toml::table& table, const std::string& key, const std::optional<T>& v
 
 }  // namespace
 
+std::optional<double> number_in(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || end != text.c_str() + text.size()) return std::nullopt;
+  return value;
+}
+
 // CLI11 gives hidden options no name.
 std::string name_of(const CLI::Option& option) {
   return option.get_lnames().empty() ? option.get_name() : "--" + option.get_lnames().front();
@@ -75,7 +90,9 @@ template <class T>
 Options::Entry& Options::add(const std::string& name, T& value, const std::string& description) {
   CLI::Option* option = app_->add_option(name, value, description)->capture_default_str();
   // CLI11 2.1 takes an empty text for no value or zero, and brings counts that are negative or too large into range.
-  if constexpr (std::is_same_v<T, std::uint64_t> || std::is_same_v<T, std::optional<std::uint64_t>>) option->check(&count_fault);
+  if constexpr (std::is_same_v<T, std::uint64_t> || std::is_same_v<T, std::optional<std::uint64_t>>)
+    option->check(&whole_number_fault<std::uint64_t>);
+  if constexpr (std::is_same_v<T, int>) option->check(&whole_number_fault<int>);
   if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>) option->check(&number_fault);
   return keep(option, name.substr(2), value);
 }

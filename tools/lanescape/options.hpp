@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,6 +42,9 @@ inline RunKinds joined(std::initializer_list<RunKinds> parts) {
   for (const RunKinds& part : parts) all.insert(all.end(), part.begin(), part.end());
   return all;
 }
+
+// The number that is the whole of a text; nothing if it is none. Numbers too small for a double are 0, too large ones infinite.
+std::optional<double> number_in(const std::string& text);
 
 // "--name", or FILE of a positional one. CLI11 gives hidden options no name.
 std::string name_of(const CLI::Option& option);

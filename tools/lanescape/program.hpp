@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,17 +12,9 @@
 #include "core/run_monitor.hpp"
 #include "dispatch/isa.hpp"
 #include "interaction/pair/pair_interaction.hpp"
+#include "json.hpp"
 #include "options.hpp"
 #include "output_folder.hpp"
-
-namespace lanescape::program {
-
-using Json = nlohmann::ordered_json;
-
-}  // namespace lanescape::program
-
-// Compiled once, in json.cpp.
-extern template class nlohmann::basic_json<nlohmann::ordered_map>;
 
 namespace lanescape::program {
 

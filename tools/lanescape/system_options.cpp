@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <initializer_list>
 #include <iostream>
 #include <limits>
@@ -93,11 +92,8 @@ void refuse_options(std::initializer_list<std::pair<const char*, bool>> given, c
 std::vector<Species> with_fractions(std::vector<Species> species, const std::string& list) {
   std::vector<double> fractions;
   std::istringstream words(list);
-  for (std::string word; std::getline(words, word, ',');) {
-    char* end = nullptr;
-    fractions.push_back(std::strtod(word.c_str(), &end));
-    if (word.empty() || *end != '\0') fractions.back() = std::numeric_limits<double>::quiet_NaN();
-  }
+  for (std::string word; std::getline(words, word, ',');)
+    fractions.push_back(number_in(word).value_or(std::numeric_limits<double>::quiet_NaN()));
   const double sum = std::accumulate(fractions.begin(), fractions.end(), 0.0);
   const bool in_range = std::all_of(fractions.begin(), fractions.end(), [](double f) { return f >= 0.0 && f <= 1.0; });
   if (fractions.size() != species.size() || !in_range || std::abs(sum - 1.0) > 1e-9)
@@ -177,11 +173,10 @@ void check_separations_in(const std::string& file, const Configuration& configur
 
 namespace {
 
-// Reads the whole file: a wrong particle count shows only in the frames that follow.
+// Frames that follow are not read, but a wrong particle count shows in the line after the first.
 Configuration first_of(ExtendedXyzReader& reader) {
   Configuration first = reader.next()->configuration;
-  while (reader.next()) {
-  }
+  reader.another_begins();
   return first;
 }
 
@@ -218,8 +213,9 @@ OutputFolder open_folder(const CommonOptions& common) {
 }
 
 void write_result(OutputFolder& folder, const std::string& subcommand, const toml::table& resolved, const Json& result) {
+  const std::string text = text_of_result(result);
   folder.write_run_file(subcommand, resolved);
-  folder.write("result.json", [&](std::ostream& out) { out << result.dump(2) << '\n'; });
+  folder.write("result.json", [&](std::ostream& out) { out << text << '\n'; });
   folder.keep();
 }
 

@@ -13,43 +13,18 @@
 #include "insertion/removal.hpp"
 #include "insertion/search.hpp"
 #include "interaction/pair/pair_interaction.hpp"
-#include "io/extended_xyz.hpp"
 #include "refusal.hpp"
+#include "thin_mixture.hpp"
 #include "verification/reference_bridge.hpp"
 
 namespace lanescape {
 namespace {
 
-using Point = std::array<double, 3>;
-
-const kernels::KernelTable& table() { return kernel_table(choose_isa("auto")); }
-
-constexpr InsertionMethod every_method[] = {InsertionMethod::usher, InsertionMethod::usher_indirect, InsertionMethod::usher_near,
-                                            InsertionMethod::screened, InsertionMethod::descent};
-
-// A molten Kob-Andersen mixture with a third of its particles removed, so that there is room for more.
-Configuration thin_mixture() {
-  Configuration fluid =
-      read_frames(std::string(LANESCAPE_TEST_DATA_DIR) + "/ka_melted_144.extxyz", kob_andersen()).front().configuration;
-  Configuration thin{fluid.box, {}, {}};
-  for (std::size_t i = 0; i < fluid.size(); ++i) {
-    if (i % 3 == 0) continue;
-    thin.species.push_back(fluid.species[i]);
-    for (const double x : fluid.position(i)) thin.positions.push_back(x);
-  }
-  return thin;
-}
+using namespace testing;
 
 double energy_of(const PairModel& model, const Configuration& fluid) {
   const ParticleLayout layout(fluid.species, model.species.size());
   return PairInteraction(model, fluid.box, layout, table()).energy(layout.to_slots(fluid.positions));
-}
-
-InsertionOptions options_with(double target, InsertionMethod method = InsertionMethod::usher) {
-  InsertionOptions options;
-  options.target = target;
-  options.method = method;
-  return options;
 }
 
 TEST(Insertion, EveryParticleRaisesTheEnergyByWhatItsRecordSaysWithinTheTolerance) {
@@ -155,40 +130,6 @@ TEST(Insertion, SearchesDoNotDependOnTheNumberOfThreads) {
   }
 }
 
-TEST(Insertion, ReflectedSearchesProbeNothingOutsideTheirRegion) {
-  const PairModel model = kob_andersen();
-  const ProbeField field(model, thin_mixture(), 0, table());
-  for (const InsertionMethod method : every_method) {
-    InsertionOptions options = options_with(-3.5, method);
-    options.region = Region{{0.5, 1.0, 0.0}, {1.7, 3.0, field.box().length[2]}};
-    std::size_t probes = 0, outside = 0, found = 0;
-    for (std::uint64_t number = 0; number < 30; ++number) {
-      InsertionSearch search(field, options, number, 0.035, 100, [&](std::uint64_t, const Point& position, double) {
-        ++probes;
-        outside += !options.region->contains(position);
-      });
-      search.run();
-      found += search.result().found && options.region->contains(search.result().position);
-    }
-    EXPECT_EQ(outside, 0U) << to_string(method);
-    EXPECT_GT(probes, 100U);
-    EXPECT_EQ(found, 30U) << to_string(method);
-  }
-}
-
-TEST(Insertion, SearchesInAWellEndInTheirRegion) {
-  const PairModel model = kob_andersen();
-  const ProbeField field(model, thin_mixture(), 0, table());
-  InsertionOptions options = options_with(-3.5);
-  options.region = Region{{0.5, 1.0, 0.0}, {1.7, 3.0, field.box().length[2]}};
-  options.wall = RegionWall::well;
-  InsertionHistory history;
-  for (const Insertion& place : find_places(field, options, 60, history, 1)) {
-    ASSERT_TRUE(place.found);
-    EXPECT_TRUE(options.region->contains(place.position));
-  }
-}
-
 TEST(Insertion, ATargetThatNoPlaceHasIsGivenUpAtTheLimitAndNothingIsPutIn) {
   const PairModel model = kob_andersen();
   ProbeField field(model, thin_mixture(), 0, table());
@@ -247,9 +188,12 @@ TEST(Insertion, RefusesWhatMakesNoSense) {
   EXPECT_EQ(refused([](auto& o) { o.tolerance = 0.0; }), "tolerance 0 is not allowed: it must be finite and above 0");
   EXPECT_EQ(refused([](auto& o) { o.target = std::nan(""); }), "target energy nan is not allowed: it must be finite");
   EXPECT_EQ(refused([](auto& o) { o.region = Region{{1.0, 4.0, 0.0}, {2.0, 3.0, 7.0}}; }),
-            "region from 4 to 3 along y is not allowed: 0 <= from < to <= 6 in this box");
+            "region from 4 to 3 along y is not allowed: from < to <= from + 6 in this box, at most 1000 edges away");
   EXPECT_EQ(refused([](auto& o) { o.region = Region{{1.0, 0.0, 0.0}, {2.0, 3.0, 7.5}}; }),
-            "region from 0 to 7.5 along z is not allowed: 0 <= from < to <= 7 in this box");
+            "region from 0 to 7.5 along z is not allowed: from < to <= from + 7 in this box, at most 1000 edges away");
+  EXPECT_EQ(
+      refused([](auto& o) { o.region = Region{{1.0, 0.0, 7e8}, {2.0, 3.0, 7e8 + 1.0}}; }),
+      "region from 700000000 to 700000001 along z is not allowed: from < to <= from + 7 in this box, at most 1000 edges away");
   EXPECT_EQ(refused([](auto& o) { o.most_trials = 0; }), "most trials 0 is not allowed: from 1 to 1000000000");
   EXPECT_NE(refused([](auto& o) { o.contact = 0.4; }).find("contact distance 0.4 is not allowed: above 0.5"), std::string::npos);
   EXPECT_EQ(testing::refusal([] { parse_insertion_method("newton"); }),

@@ -61,6 +61,33 @@ TEST(ExtendedXyz, OtherPairsOfTheCommentLineAreKeptAsText) {
   EXPECT_EQ(result.info, expected);
 }
 
+TEST(ExtendedXyz, OfARepeatedKeyTheLastValueCounts) {
+  EXPECT_EQ(read("1\n" + comment + " step=1 step=2\nNi 0 1 2\n").info.at("step"), "2");
+}
+
+TEST(ExtendedXyz, ARepeatedBoxMustBeTheSame) {
+  EXPECT_EQ(read("1\n" + comment + " Lattice=\"4 0 0 0 5 0 0 0 6\" pbc=\"T T T\"\nNi 0 1 2\n").configuration.box.length[0], 4.0);
+}
+
+TEST(ExtendedXyz, AnotherCaseBesideLatticeIsAnOrdinaryKey) {
+  const Frame result = read("1\nlattice=fcc " + comment + "\nNi 0 1 2\n");
+  EXPECT_EQ(result.configuration.box, (Box{{4.0, 5.0, 6.0}}));
+  EXPECT_EQ(result.info, (std::map<std::string, std::string>{{"lattice", "fcc"}}));
+}
+
+TEST(ExtendedXyz, AMissingValueIsAnEmptyText) {
+  const Frame result = read("1\nconfig_type= " + comment + " a= b = 'x y' note= \nNi 0 1 2\n");
+  EXPECT_EQ(result.configuration.box, (Box{{4.0, 5.0, 6.0}}));
+  EXPECT_EQ(result.info, (std::map<std::string, std::string>{{"config_type", ""}, {"a", ""}, {"b", "x y"}, {"note", ""}}));
+}
+
+TEST(ExtendedXyz, AByteOrderMarkIsSkipped) { EXPECT_EQ(read("\xEF\xBB\xBF" + frame).configuration.size(), 2u); }
+
+TEST(ExtendedXyz, NumbersTooSmallForADoubleAreZero) {
+  EXPECT_EQ(read(with_particle("Ni 1e-999 -1e-400 1d-999")).configuration.positions, (std::vector<double>{0.0, 0.0, 0.0}));
+  EXPECT_EQ(read(with_particle("Ni 1.5D+00 0 0")).configuration.positions[0], 1.5);
+}
+
 TEST(ExtendedXyz, OtherColumnsAreSkippedInAnyOrder) {
   const Frame result = read(
       "1\nLattice=\"4 0 0 0 5 0 0 0 6\" Properties=id:I:1:pos:R:3:forces:R:3:species:S:1:fixed:L:1\n"
@@ -86,6 +113,20 @@ TEST(ExtendedXyz, FramesAreReadOneByOne) {
   EXPECT_EQ(reader.next()->configuration.size(), 1u);
   EXPECT_FALSE(reader.next().has_value());
   EXPECT_FALSE(reader.next().has_value());
+}
+
+TEST(ExtendedXyz, AFrameThatFollowsNeedNotBeWhole) {
+  const TemporaryFolder folder;
+  const auto another_begins = [&](const std::string& content) {
+    ExtendedXyzReader reader(folder.file("more.extxyz", content), kob_andersen());
+    EXPECT_EQ(reader.next()->configuration.size(), 2u);
+    return reader.another_begins();
+  };
+  EXPECT_FALSE(another_begins(frame));
+  EXPECT_FALSE(another_begins(frame + "\n \n"));
+  EXPECT_TRUE(another_begins(frame + "7"));
+  EXPECT_TRUE(another_begins(frame + "7\nno box\nNi 1"));
+  expect_contains(refusal([&] { another_begins(frame + "Ni 1 1 1\n"); }), "more.extxyz:5: 'Ni 1 1 1'");
 }
 
 TEST(ExtendedXyz, AllFramesOfAFileAreRead) {
@@ -151,10 +192,17 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"NoProperties", "1\nLattice=\"4 0 0 0 5 0 0 0 6\"\nNi 0 1 2\n", 2, "no Properties=species:S:1:pos:R:3"},
         BadFile{"OpenQuote", "1\nLattice=\"4 0 0 0 5 0 0 0 6 Properties=species:S:1:pos:R:3\n", 2, "quote without an end"},
         BadFile{"OpenBracket", "1\n" + comment + " a=[1 2\n", 2, "bracket without an end"},
-        BadFile{"KeyTwice", "1\n" + comment + " lattice=\"4 0 0 0 5 0 0 0 6\"\n", 2, "lattice is given twice"},
+        BadFile{"OtherBox", "1\n" + comment + " Lattice=\"4 0 0 0 5 0 0 0 7\"\n", 2,
+                "Lattice is given twice, \"4 0 0 0 5 0 0 0 6\" and \"4 0 0 0 5 0 0 0 7\": one value is allowed"},
+        BadFile{"OtherBoxInOtherCases", "1\nLATTICE=\"4 5 6\" lattice=\"4 5 7\"\n", 2, "Lattice is given twice"},
+        BadFile{"OtherPbc", "1\n" + comment + " pbc=\"T T F\"\n", 2, "pbc is given twice"},
+        BadFile{"BoxOfAWord", "1\nlattice=fcc Properties=species:S:1:pos:R:3\n", 2, "'fcc'"},
         BadFile{"NoKey", "1\n" + comment + " =3\n", 2, "without a key"},
-        BadFile{"NoValue", "1\n" + comment + " energy=\n", 2, "without a value"},
-        BadFile{"LatticeTooShort", with_lattice("4 5 6"), 2, "has 3 numbers"},
+        BadFile{"LatticeWithoutAValue", "1\nLattice= Properties=species:S:1:pos:R:3\n", 2, "has 0 numbers"},
+        BadFile{"LatticeOfOneNumber", with_lattice("4"), 2, "has 1 number: nine"},
+        BadFile{"LatticeTooShort", with_lattice("4 5 6 7"), 2, "has 4 numbers"},
+        BadFile{"LatticeIsTriclinicInRows", "1\nLattice=[[4, 0, 0], [1, 5, 0], [0, 0, 6]] Properties=species:S:1:pos:R:3\n", 2,
+                "not orthorhombic"},
         BadFile{"LatticeTooLong", with_lattice("4 0 0 0 5 0 0 0 6 0"), 2, "more than 9"},
         BadFile{"LatticeIsAWord", with_lattice("4 0 0 0 five 0 0 0 6"), 2, "'five'"},
         BadFile{"LatticeIsNan", with_lattice("4 0 0 0 nan 0 0 0 6"), 2, "'nan'"},
@@ -174,7 +222,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"TooManyColumns", with_properties("species:S:1:pos:R:3:mass:R:18446744073709551615"), 2, "at most 1000"},
         BadFile{"BrokenTriplet", with_properties("species:S:1:pos:R"), 2, "triplets"},
         BadFile{"PbcOpenAlongOneAxis", with_pbc("\"T T F\""), 2, "pbc \"T T F\""},
-        BadFile{"PbcOfOneAxis", with_pbc("T"), 2, "\"T T T\""}, BadFile{"PbcEmpty", with_pbc("\"\""), 2, "\"T T T\""}),
+        BadFile{"PbcOfTwoAxes", with_pbc("[T, T]"), 2, "\"T T T\""}, BadFile{"PbcIsOff", with_pbc("F"), 2, "pbc \"F\""},
+        BadFile{"PbcOffInNumbers", with_pbc("[1, 0, 1]"), 2, "pbc \"[1, 0, 1]\""},
+        BadFile{"PbcEmpty", with_pbc("\"\""), 2, "\"T T T\""}),
     [](const auto& info) { return std::string(info.param.name); });
 
 INSTANTIATE_TEST_SUITE_P(Particles, ExtendedXyzRefusal,

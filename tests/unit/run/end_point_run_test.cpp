@@ -29,6 +29,11 @@ struct Soft {
     options.check_steps = options.between_steps = 500;
     options.check_tolerance = 100.0;
   }
+  // Most of the run is then equilibration, and a pair takes several chunks.
+  void equilibrate_longer() {
+    options.melt_steps = 100'000;
+    options.distance = 8.0;
+  }
   EndPointRunResult run(const CheckpointOptions& checkpoint, RunMonitor& monitor) const {
     return run_end_points(model, start, options, choose_isa("auto"), checkpoint, monitor);
   }
@@ -44,6 +49,10 @@ struct Hard {
     options.pairs = 2;
     options.equilibration_collisions = 20'000;
     options.between_collisions = 10'000;
+  }
+  void equilibrate_longer() {
+    options.equilibration_collisions = 1'000'000;
+    options.distance = 150.0;
   }
   EndPointRunResult run(const CheckpointOptions& checkpoint, RunMonitor& monitor) const {
     return run_hard_end_points(model, start, options, choose_isa("auto"), checkpoint, monitor);
@@ -82,6 +91,35 @@ TYPED_TEST(EndPointRunOf, MakesPairsTheDistanceApart) {
   }
   EXPECT_EQ(result.trace.columns(), result.trace_columns.size());
   EXPECT_GT(result.trace.rows(), 0u);
+}
+
+constexpr std::string_view name_of_pairs = "towards the far end point";
+
+// Stops a run while it makes a pair.
+class StopInAPair final : public RunMonitor {
+ public:
+  void progress(std::string_view stage, double, double) override { in_pair_ = stage == name_of_pairs; }
+  bool stop_requested() const override { return in_pair_; }
+
+ private:
+  bool in_pair_ = false;
+};
+
+TYPED_TEST(EndPointRunOf, SecondsOfAPairAreWithoutEquilibrationAlsoInAResumedRun) {
+  TypeParam protocol;
+  protocol.equilibrate_longer();
+  protocol.options.pairs = 1;
+  SilentMonitor silent;
+  const testing::TemporaryFolder folder;
+  StopInAPair stopping;
+  const EndPointRunResult begun = protocol.run({folder.path(), false}, stopping);
+  ASSERT_TRUE(begun.interrupted);
+  EXPECT_TRUE(begun.pair_seconds.empty());
+  for (const EndPointRunResult& result : {protocol.run({}, silent), protocol.run({folder.path(), true}, silent)}) {
+    ASSERT_EQ(result.pair_seconds.size(), 1u);
+    EXPECT_GT(result.pair_seconds[0], 0.0);
+    EXPECT_LT(result.pair_seconds[0], 0.5 * result.seconds);
+  }
 }
 
 TYPED_TEST(EndPointRunOf, InterruptedAndResumedEndsWithTheSameBits) {

@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+
+#include "insertion/insertion.hpp"
+#include "insertion/removal.hpp"
+#include "insertion/search.hpp"
+#include "thin_mixture.hpp"
+
+namespace lanescape {
+namespace {
+
+using namespace testing;
+
+TEST(Region, ReflectedSearchesProbeNothingOutsideTheirRegion) {
+  const PairModel model = kob_andersen();
+  const ProbeField field(model, thin_mixture(), 0, table());
+  for (const InsertionMethod method : every_method) {
+    InsertionOptions options = options_with(-3.5, method);
+    options.region = Region{{0.5, 1.0, 0.0}, {1.7, 3.0, field.box().length[2]}};
+    std::size_t probes = 0, outside = 0, found = 0;
+    for (std::uint64_t number = 0; number < 30; ++number) {
+      InsertionSearch search(field, options, number, 0.035, 100, [&](std::uint64_t, const Point& position, double) {
+        ++probes;
+        outside += !options.region->contains(position);
+      });
+      search.run();
+      found += search.result().found && options.region->contains(search.result().position);
+    }
+    EXPECT_EQ(outside, 0U) << to_string(method);
+    EXPECT_GT(probes, 100U);
+    EXPECT_EQ(found, 30U) << to_string(method);
+  }
+}
+
+TEST(Region, SearchesInAWellEndInTheirRegion) {
+  const PairModel model = kob_andersen();
+  const ProbeField field(model, thin_mixture(), 0, table());
+  InsertionOptions options = options_with(-3.5);
+  options.region = Region{{0.5, 1.0, 0.0}, {1.7, 3.0, field.box().length[2]}};
+  options.wall = RegionWall::well;
+  InsertionHistory history;
+  for (const Insertion& place : find_places(field, options, 60, history, 1)) {
+    ASSERT_TRUE(place.found);
+    EXPECT_TRUE(options.region->contains(place.position));
+  }
+}
+
+TEST(Region, ARegionMayLieAcrossFacesOfTheBox) {
+  const PairModel model = kob_andersen();
+  const Box box = thin_mixture().box;
+  const double edge = box.length[0];
+  for (const RegionWall wall : {RegionWall::reflect, RegionWall::well})
+    for (const InsertionMethod method : every_method) {
+      ProbeField field(model, thin_mixture(), 0, table());
+      InsertionOptions options = options_with(-3.5, method);
+      options.wall = wall;
+      options.most_trials = 200;
+      options.region = Region{{-0.2 * edge, 1.0, -0.5 * box.length[2]}, {0.2 * edge, 3.0, 0.5 * box.length[2]}};
+      InsertionHistory history;
+      std::size_t below = 0, above = 0;
+      for (const Insertion& place : insert_particles(field, options, 12, history, 1)) {
+        if (!place.found) continue;
+        const auto [x, y, z] = place.position;
+        EXPECT_TRUE(x >= 0.0 && x < edge && y >= 0.0 && y < box.length[1] && z >= 0.0 && z < box.length[2]);
+        EXPECT_TRUE(x <= 0.2 * edge * (1 + 1e-12) || x >= 0.8 * edge * (1 - 1e-12)) << x;
+        EXPECT_TRUE(y >= 1.0 && y <= 3.0) << y;
+        ++(x < 0.5 * edge ? below : above);
+      }
+      EXPECT_GT(below, 0U) << to_string(method);
+      EXPECT_GT(above, 0U) << to_string(method);
+    }
+}
+
+TEST(Region, ARegionInAnotherImageOfTheBoxHasTheSamePlacesToRounding) {
+  const PairModel model = kob_andersen();
+  const ProbeField field(model, thin_mixture(), 0, table());
+  const Box& box = field.box();
+  for (const InsertionMethod method : {InsertionMethod::usher, InsertionMethod::screened}) {
+    InsertionOptions here = options_with(-3.5, method), there = here;
+    here.region = Region{{0.5, 1.0, 0.0}, {1.7, 3.0, 2.0}};
+    there.region = here.region;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      there.region->low[axis] -= box.length[axis];
+      there.region->high[axis] -= box.length[axis];
+    }
+    InsertionHistory first, second;
+    const Insertion a = find_places(field, here, 1, first, 1).front(), b = find_places(field, there, 1, second, 1).front();
+    ASSERT_TRUE(a.found && b.found);
+    EXPECT_EQ(a.evaluations, b.evaluations);
+    for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_NEAR(a.position[axis], b.position[axis], 1e-6);
+  }
+}
+
+TEST(Region, ParticlesAreRemovedFromARegionAcrossFaces) {
+  const PairModel model = lennard_jones();
+  const Configuration fluid{Box{{8.0, 8.0, 8.0}}, {0, 0, 0}, {7.5, 4.0, 4.0, 3.0, 4.0, 4.0, -7.6, 4.0, 12.0}};
+  const CounterRandom random(1, RandomStream::insertion);
+  const auto chosen = [&](const Region& region, std::uint64_t number) {
+    const auto removal = choose_removal(model, fluid, 0, RemovalRule::random, region, 0.0, random, number, choose_isa("auto"));
+    return removal ? static_cast<int>(removal->particle) : -1;
+  };
+  const Region across{{-1.0, -4.0, 0.0}, {1.0, 4.0, 8.0}}, within{{2.0, -4.0, 0.0}, {4.0, 4.0, 8.0}};
+  bool first = false, last = false;
+  for (std::uint64_t number = 0; number < 30; ++number) {
+    const int particle = chosen(across, number);
+    EXPECT_NE(particle, 1);
+    first = first || particle == 0;
+    last = last || particle == 2;
+    EXPECT_EQ(chosen(within, number), 1);
+  }
+  EXPECT_TRUE(first && last);
+  EXPECT_EQ(chosen(Region{{4.5, 0.0, 0.0}, {6.0, 8.0, 8.0}}, 0), -1);
+}
+
+}  // namespace
+}  // namespace lanescape
