@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/length_unit.hpp"
 
 namespace lanescape {
 
@@ -14,6 +16,8 @@ std::vector<double> HardSphereModel::radii_of(const std::vector<int>& species_of
   for (const int s : species_of_particles) radii.push_back(radius(static_cast<std::size_t>(s)));
   return radii;
 }
+
+double HardSphereModel::length_unit() const { return length_unit_of(*std::max_element(diameters.begin(), diameters.end())); }
 
 void HardSphereModel::check() const {
   check_species();

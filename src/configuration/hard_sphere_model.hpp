@@ -15,6 +15,8 @@ struct HardSphereModel : Mixture {
   std::vector<double> diameters;  // per species [sigma]
 
   double radius(std::size_t species_index) const { return 0.5 * diameters[species_index]; }
+  // The unit of length for its spheres [sigma].
+  double length_unit() const;
   // One radius per particle [sigma].
   std::vector<double> radii_of(const std::vector<int>& species_of_particles) const;
   // Throws Error(bad_input) unless each species is sound and has a diameter in this range.

@@ -161,10 +161,10 @@ double largest_packing_fraction(const Packing& packing) {
 
 }  // namespace
 
-Configuration fcc_start(const Mixture& model, std::size_t particles, double density, std::uint64_t seed) {
+Configuration fcc_start(const Mixture& model, std::size_t particles, double density, std::uint64_t seed, double length_unit) {
   check_particles(particles);
-  if (!(density > 0.0 && density <= max_density))
-    throw_bad_input(fmt::format("density {} is not allowed: above 0 and at most {}", density, max_density));
+  if (const double most = max_density * std::pow(length_unit, -3); !(density > 0.0 && density <= most))
+    throw_bad_input(fmt::format("density {} is not allowed: above 0 and at most {}", density, most));
   const double length = std::cbrt(static_cast<double>(particles) / density);
   Configuration start{Box{{length, length, length}}, species_in_proportion(model, particles),
                       Lattice(particles, seed).positions(length)};
@@ -173,7 +173,7 @@ Configuration fcc_start(const Mixture& model, std::size_t particles, double dens
 }
 
 Configuration fcc_start(const PairModel& model, std::size_t particles, double density, std::uint64_t seed) {
-  Configuration start = fcc_start(static_cast<const Mixture&>(model), particles, density, seed);
+  Configuration start = fcc_start(static_cast<const Mixture&>(model), particles, density, seed, model.length_unit());
   if (!model.form->has_diameters) return start;
   constexpr double ratio = 0.45, largest = 0.5 * (1.0 + ratio) / ratio, smallest = ratio * largest;
   const double most = 1.0 / (smallest * smallest), least = 1.0 / (largest * largest);

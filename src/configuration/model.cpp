@@ -52,4 +52,8 @@ const Mixture& mixture_of(const Model& model) {
   return std::visit([](const Mixture& mixture) -> const Mixture& { return mixture; }, model);
 }
 
+double length_unit(const Model& model) {
+  return std::visit([](const auto& of_kind) { return of_kind.length_unit(); }, model);
+}
+
 }  // namespace lanescape

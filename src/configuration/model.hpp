@@ -18,5 +18,7 @@ std::string model_names();
 // The model of a name; any other throws Error(bad_input) naming all there are.
 Model named_model(std::string_view name);
 const Mixture& mixture_of(const Model& model);
+// In which lengths that users leave to the library are given (core/length_unit.hpp) [sigma].
+double length_unit(const Model& model);
 
 }  // namespace lanescape

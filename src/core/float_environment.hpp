@@ -4,6 +4,10 @@
 #include <cfenv>
 #endif
 
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "lanescape needs IEEE arithmetic: compile it without -ffast-math and -ffinite-math-only"
+#endif
+
 namespace lanescape {
 
 // The floating-point environment in which the library's results are what they are: rounding to nearest, no traps, gradual

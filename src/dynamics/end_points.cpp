@@ -44,8 +44,8 @@ void EndPointOptions::check() const {
   check_at_least_one("number of pairs", pairs);
   check_at_least_one("rescale interval", rescale_interval);
   check_at_least_one("check interval", check_interval);
-  if (time_step > 0.02)
-    throw_bad_input(fmt::format("time step {} is not allowed: at most 0.02, or energy is not conserved", time_step));
+  if (const double most = 0.02 * length_unit; time_step > most)
+    throw_bad_input(fmt::format("time step {} is not allowed: at most {}, or energy is not conserved", time_step, most));
   if (check_steps < check_interval)
     throw_bad_input(fmt::format("check steps {} must be at least the check interval {}", check_steps, check_interval));
 }

@@ -19,6 +19,7 @@ struct EndPointOptions {
   std::optional<int> distance_species;  // only this species counts for the distance
   std::uint64_t pairs = 1;
   double time_step = 0.001;  // [sigma sqrt(m/epsilon)]
+  double length_unit = 1.0;  // of the model, which limits the time step [sigma]
   double melt_temperature = 5.0;
   std::uint64_t melt_steps = 200'000;
   std::uint64_t cooling_steps = 1'000'000;

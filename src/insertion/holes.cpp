@@ -8,7 +8,7 @@ namespace {
 
 // Directions at equal steps of cos theta and of phi have equal solid angles.
 constexpr int polar_steps = 12, azimuthal_steps = 24;
-constexpr double radial_step = 0.02;  // [sigma]; walls thinner than this may be missed
+constexpr double relative_step = 0.02;  // [ProbeField::length_unit()]; walls thinner than this may be missed
 constexpr int halvings = 20;
 
 std::array<double, 3> beyond(const std::array<double, 3>& point, const std::array<double, 3>& direction, double r) {
@@ -18,7 +18,8 @@ std::array<double, 3> beyond(const std::array<double, 3>& point, const std::arra
 // The distance at which the energy first reaches `iso_energy`; nothing if it does not up to the largest radius.
 std::optional<double> radius(const ProbeField& fluid, const std::array<double, 3>& point, const std::array<double, 3>& direction,
                              double iso_energy) {
-  for (double r = radial_step; r <= largest_hole_radius; r += radial_step) {
+  const double radial_step = relative_step * fluid.length_unit();
+  for (double r = radial_step; r <= largest_hole_radius * fluid.length_unit(); r += radial_step) {
     if (fluid.energy(beyond(point, direction, r)) < iso_energy) continue;
     double low = r - radial_step, high = r;
     for (int k = 0; k < halvings; ++k) {
@@ -58,7 +59,7 @@ std::optional<Hole> measure_hole(const ProbeField& fluid, const std::array<doubl
       const double cosine = (2.0 * p + 1.0) / polar_steps - 1.0, sine = std::sqrt(1.0 - cosine * cosine);
       const double phi = 2.0 * std::numbers::pi * (a + 0.5) / azimuthal_steps;
       const std::optional<double> found = radius(fluid, point, {sine * std::cos(phi), sine * std::sin(phi), cosine}, iso_energy);
-      const double r = found.value_or(largest_hole_radius);
+      const double r = found.value_or(largest_hole_radius * fluid.length_unit());
       hole.open_directions += found ? 0.0 : share;
       hole.mean_radius += share * r;
       hole.mean_square += share * r * r;

@@ -19,7 +19,7 @@ struct Hole {
   double open_directions = 0.0;  // share of directions without such a rise; R is largest_hole_radius there
 };
 
-inline constexpr double largest_hole_radius = 3.0;  // [sigma]
+inline constexpr double largest_hole_radius = 3.0;  // [ProbeField::length_unit()]
 
 // Returns nothing if the energy at the point is not below `iso_energy` [epsilon].
 std::optional<Hole> measure_hole(const ProbeField& fluid, const std::array<double, 3>& point, double iso_energy);

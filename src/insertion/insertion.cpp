@@ -75,7 +75,7 @@ void InsertionOptions::check(const Box& box) const {
   if (!std::isfinite(target)) throw_bad_input(fmt::format("target energy {} is not allowed: it must be finite", target));
   check_positive("tolerance", tolerance);
   if (largest_step) check_positive("largest step", *largest_step);
-  check_positive("traverse step", traverse_step);
+  if (traverse_step) check_positive("traverse step", *traverse_step);
   check_positive("overlap energy", overlap_energy);
   check_positive("clear energy", clear_energy);
   // Otherwise a step out of an overlap would go the wrong way.

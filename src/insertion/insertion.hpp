@@ -62,11 +62,12 @@ struct InsertionOptions {
   // For |U0| below 1e-6 the error is always absolute.
   ErrorMeasure measure = ErrorMeasure::relative;
   InsertionMethod method = InsertionMethod::usher;
-  std::optional<double> largest_step;  // ds_max, or the step ds of descent [sigma]; default: 0.1 rho^(-3/2)
-  double traverse_step = 0.6;          // ds' of descent: step after a line minimisation [sigma]
-  double overlap_energy = 1e4;         // U_ov: above it a step ends at the contact distance [epsilon]
-  double contact = 0.9;                // r_sigma, the contact distance [sigma of the largest pair]
-  double clear_energy = 60.0;          // screened: limit of a single particle's r^-12 energy at a start [epsilon]
+  // ds_max, or the step ds of descent [sigma]; default: 0.1 rho^(-3/2), with both in ProbeField::length_unit()
+  std::optional<double> largest_step;
+  std::optional<double> traverse_step;  // ds' of descent: step after a line minimisation [sigma]; default: 0.6 length units
+  double overlap_energy = 1e4;          // U_ov: above it a step ends at the contact distance [epsilon]
+  double contact = 0.9;                 // r_sigma, the contact distance [sigma of the largest pair]
+  double clear_energy = 60.0;           // screened: limit of a single particle's r^-12 energy at a start [epsilon]
   // Limit per trial; default: four times the mean of successful trials, at least 100.
   std::optional<std::uint64_t> most_iterations;
   std::uint64_t most_trials = 10'000;  // limit per insertion

@@ -19,6 +19,12 @@ constexpr std::size_t candidates_at_once = 16;
 // Limit of candidates per start. After it the last candidate is used, for instance if no point of the region is clear.
 constexpr int most_candidates = 16'384;
 
+double default_largest_step(const ProbeField& fluid) {
+  double reduced_volume = 1.0;
+  for (const double edge : fluid.box().length) reduced_volume *= edge / fluid.length_unit();
+  return 0.1 * std::pow(static_cast<double>(fluid.size()) / reduced_volume, -1.5) * fluid.length_unit();
+}
+
 }  // namespace
 
 InsertionSearch::InsertionSearch(const ProbeField& fluid, const InsertionOptions& options, std::uint64_t number, double allowed,
@@ -29,7 +35,8 @@ InsertionSearch::InsertionSearch(const ProbeField& fluid, const InsertionOptions
       number_(number),
       most_iterations_(most_iterations),
       allowed_(allowed),
-      largest_step_(options.largest_step.value_or(0.1 * std::pow(static_cast<double>(fluid.size()) / fluid.box().volume(), -1.5))),
+      largest_step_(options.largest_step.value_or(default_largest_step(fluid))),
+      traverse_step_(options.traverse_step.value_or(0.6 * fluid.length_unit())),
       clearances_(fluid.clearances(options.clear_energy)),
       region_(options.region.value_or(Region{{}, fluid.box().length})),
       whole_box_(!options.region),
@@ -216,7 +223,7 @@ bool InsertionSearch::descent_trial(Site& site) {
       } else {
         if (!can_go_on(least)) return false;
         site = least;
-        next = step(least, sign, options_->traverse_step);
+        next = step(least, sign, traverse_step_);
       }
     } else {
       uphill_in_a_row = 0;

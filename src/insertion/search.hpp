@@ -72,7 +72,7 @@ class InsertionSearch {
   const InsertionOptions* options_;
   CounterRandom random_;
   std::uint64_t number_, most_iterations_, spent_ = 0;  // spent: evaluations in the current trial
-  double allowed_, largest_step_;
+  double allowed_, largest_step_, traverse_step_;
   std::vector<double> clearances_;
   Region region_;
   bool whole_box_;

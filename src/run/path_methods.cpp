@@ -20,7 +20,9 @@ std::unique_ptr<HardSphereLandscape> hard_landscape(const SearchSetup& setup) {
 
 std::unique_ptr<PathSearch> begin_contour(const SearchSetup& setup) {
   auto landscape = path_landscape(setup);
-  ContourStepper stepper(*landscape, setup.prepared.landscape_energy, {.direct_step = setup.options.step_length()});
+  ContourStepper stepper(
+      *landscape, setup.prepared.landscape_energy,
+      {.direct_step = setup.options.step_length(), .correction = ContourStepper::Options{}.correction * setup.options.length_unit});
   return begin_search(setup, std::move(landscape), std::move(stepper));
 }
 
@@ -33,7 +35,7 @@ std::unique_ptr<PathSearch> begin_escape(const SearchSetup& setup) {
 std::unique_ptr<PathSearch> begin_avoidance(const SearchSetup& setup) {
   auto landscape = hard_landscape(setup);
   AvoidanceStepper stepper(*landscape, {.direct_step = setup.options.step_length(),
-                                        .avoidance_step = setup.options.avoidance_step,
+                                        .avoidance_step = setup.options.avoidance_step_length(),
                                         .potential = setup.options.fictitious});
   return begin_search(setup, std::move(landscape), std::move(stepper));
 }

@@ -79,8 +79,8 @@ struct Searches {
 }  // namespace
 
 void PathRunOptions::check() const {
-  if (method->direct_step) check_positive("step", step_length(), 1.0);
-  check_positive("avoidance step", avoidance_step, 0.1);
+  if (method->direct_step) check_positive("step", step_length(), 1.0 * length_unit);
+  check_positive("avoidance step", avoidance_step_length(), 0.1 * length_unit);
   if (landscape_energy && method->is_hard) throw_bad_input("hard spheres have no landscape energy: without it only");
   if (landscape_energy && !std::isfinite(*landscape_energy))
     throw_bad_input(fmt::format("landscape energy {} is not allowed: it must be finite", *landscape_energy));

@@ -36,7 +36,8 @@ struct PathState {
     options.method = method ? &path_method(*method) : &default_path_method(is_hard(model));
     check_method(*options.method, model);
     options.direct_step = step;
-    options.avoidance_step = avoidance_step.value_or(options.avoidance_step);
+    options.avoidance_step = avoidance_step;
+    options.length_unit = length_unit(model);
     if (fictitious) options.fictitious = parse_contact_potential(*fictitious);
     options.landscape_energy = landscape_energy;
     options.reverse = reverse;
@@ -310,7 +311,8 @@ Subcommand add_path(CLI::App& app) {
                fmt::format("{}; {} for hard spheres [{}, {}]", path_method_words(false, " or "), path_method_words(true, " or "),
                            default_path_method(false).word, default_path_method(true).word));
   options->add_synonym_of_default("--faithful", "steps exactly as published (the default)");
-  options->add("--step", state->step, "length of a direct step in 3N space [sigma] [0.001; hard spheres 0.01]")
+  options
+      ->add("--step", state->step, "length of a direct step in 3N space [sigma] [0.001; hard spheres 0.01; see FORMATS.md, Units]")
       .only_for({direct_steps_of_a_length});
   options
       ->add("--avoidance-step", state->avoidance_step, "of each particle that moves in a collision-avoidance step [sigma] [0.0001]")

@@ -93,14 +93,16 @@ EndPointProtocol EndPointSetup::resolve(const Model& model, std::size_t particle
   // What both families share.
   const auto shared = [&](auto options) {
     if (quick_) options.make_quick();
-    options.distance = distance_.value_or(default_distance(particles));
+    options.distance = distance_.value_or(default_distance(particles) * length_unit(model));
     if (!distance_species_.empty()) options.distance_species = mixture_of(model).find_species(distance_species_);
     options.seed = seed;
     take(options.pairs, pairs_);
     return options;
   };
   if (is_hard(model)) return hard_protocol(shared(HardEndPointOptions{}));
-  return soft_protocol(shared(EndPointOptions{}));
+  EndPointOptions options;
+  options.length_unit = length_unit(model);
+  return soft_protocol(shared(options));
 }
 
 HardEndPointOptions EndPointSetup::hard_protocol(HardEndPointOptions options) const {
@@ -113,7 +115,7 @@ HardEndPointOptions EndPointSetup::hard_protocol(HardEndPointOptions options) co
 
 EndPointOptions EndPointSetup::soft_protocol(EndPointOptions options) const {
   options.temperature = temperature_.value_or(1.0);
-  take(options.time_step, time_step_);
+  options.time_step = time_step_.value_or(options.time_step * options.length_unit);
   take(options.melt_temperature, melt_temperature_);
   take(options.melt_steps, melt_steps_);
   take(options.cooling_steps, cooling_steps_);

@@ -13,9 +13,9 @@ namespace lanescape::program {
 // Options of the searches, the same for insertion into a file, scans and growth.
 struct InsertionSetup {
   std::string energy = "mean";
-  double tolerance = 0.01, traverse_step = 0.6, clear_energy = 60.0;
+  double tolerance = 0.01, clear_energy = 60.0;
   std::string measure = "relative", method = "usher", wall = "reflect", region, species;
-  std::optional<double> largest_step;
+  std::optional<double> largest_step, traverse_step;
   std::optional<std::uint64_t> most_iterations;
   std::uint64_t most_trials = 10'000;
 

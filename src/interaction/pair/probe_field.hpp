@@ -44,6 +44,8 @@ class ProbeField {
   void insert(const Point& position, int species);
   bool remove(const Point& position, int species);
 
+  // The model's unit of length [sigma].
+  double length_unit() const { return unit_; }
   const Box& box() const { return box_; }
   std::size_t size() const;  // particles of the fluid
   int species() const { return species_; }
