@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "configuration/particle_layout.hpp"
@@ -30,6 +31,10 @@ struct LennardJonesPotential::Implementation {
     if (positions.size() != 3 * layout.size())
       throw_bad_input(fmt::format("{} coordinates were given for {} particles: {} are needed", positions.size(), layout.size(),
                                   3 * layout.size()));
+    for (std::size_t k = 0; k < positions.size(); ++k)
+      if (!std::isfinite(positions[k]))
+        throw_bad_input(fmt::format("{} coordinate {} of particle {} (from 0) is not allowed: it must be finite", "xyz"[k % 3],
+                                    positions[k], k / 3));
     return layout.to_slots(positions);
   }
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <new>
 #include <tuple>
 
 #include "configuration/particle_layout.hpp"
@@ -134,14 +135,8 @@ void append(OrderedPairs& pairs, std::size_t first, const std::vector<Partner>& 
   }
 }
 
-}  // namespace
-
-OrderedPairs ordered_pairs(const Box& box, std::span<const double> positions, double cutoff, const kernels::KernelTable& table) {
-  const FloatEnvironment environment;
-  check_lengths(box, cutoff);
-  check_positions(box, positions, cutoff);
-  OrderedPairs pairs;
-  if (positions.empty()) return pairs;
+void find_pairs(const Box& box, std::span<const double> positions, double cutoff, const kernels::KernelTable& table,
+                OrderedPairs& pairs) {
   CandidateSearch search(box, positions, cutoff, table);
   std::vector<Partner> partners;
   for (std::size_t i = 0; i < positions.size() / 3; ++i) {
@@ -156,6 +151,22 @@ OrderedPairs ordered_pairs(const Box& box, std::span<const double> positions, do
     std::sort(partners.begin(), partners.end(),
               [](const Partner& a, const Partner& b) { return std::tie(a.particle, a.shift) < std::tie(b.particle, b.shift); });
     append(pairs, i, partners);
+  }
+}
+
+}  // namespace
+
+OrderedPairs ordered_pairs(const Box& box, std::span<const double> positions, double cutoff, const kernels::KernelTable& table) {
+  const FloatEnvironment environment;
+  check_lengths(box, cutoff);
+  check_positions(box, positions, cutoff);
+  OrderedPairs pairs;
+  if (positions.empty()) return pairs;
+  try {
+    find_pairs(box, positions, cutoff, table, pairs);
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorCode::internal, fmt::format("no memory for all pairs of {} particles within {}: {} were found so far",
+                                                 positions.size() / 3, cutoff, pairs.first.size()));
   }
   return pairs;
 }

@@ -20,10 +20,11 @@ constexpr std::size_t read_ahead = 16;
 // Beyond, wrapping leaves too few digits.
 constexpr double most_boxes_away = 1e12;
 
-void check_boxes_away(double boxes, double length) {
-  if (!(std::abs(boxes) <= most_boxes_away))
-    throw_bad_input(fmt::format("a particle's coordinate is {} boxes of edge {} away: it must be finite and at most {} boxes away",
-                                boxes, length, most_boxes_away));
+void check_boxes_away(double x, double boxes, double length) {
+  if (std::abs(boxes) <= most_boxes_away) return;
+  check_finite({&x, 1});
+  throw_bad_input(fmt::format("coordinate {} of a particle is not allowed in a box of edge {}: at most {} boxes away are", x,
+                              length, most_boxes_away));
 }
 
 }  // namespace
@@ -107,7 +108,7 @@ void PeriodicPoints::close_wide_gaps(const AlignedArray& positions) {
     for_each_slot([&](std::size_t slot) {
       home_shifts_[slot][axis] = closed.shifts[k];
       home_boxes_[slot][axis] = closed.boxes[k++];
-      check_boxes_away(home_boxes_[slot][axis], whole_box_.length[axis]);
+      check_boxes_away(positions[axis * layout_slots_ + slot], home_boxes_[slot][axis], whole_box_.length[axis]);
     });
   }
   for (std::size_t s = 0; s < grids_.size(); ++s) shape_grid(grids_[s], blocks_[s].count);
@@ -120,7 +121,7 @@ std::array<double, 3> PeriodicPoints::home_of(const AlignedArray& positions, std
     const double x = positions[axis * layout_slots_ + slot], length = box_.length[axis];
     if (x >= 0.0 && x < length) continue;
     home[axis] = -std::floor(x / length);
-    check_boxes_away(home[axis], length);
+    check_boxes_away(x, home[axis], length);
   }
   return home;
 }

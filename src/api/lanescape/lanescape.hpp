@@ -18,6 +18,9 @@ const char* version() noexcept;
 std::vector<std::string> instruction_sets();
 
 // The potential energy of a Lennard-Jones mixture in a periodic orthorhombic box. Not thread-safe: one object per thread.
+//
+// Results do not depend on the caller's floating-point environment: rounding mode, traps and flushing to zero are set aside during a
+// call. Two particles at one place give an energy and forces that are not finite.
 class LennardJonesPotential {
  public:
   struct Options {
@@ -35,7 +38,8 @@ class LennardJonesPotential {
   LennardJonesPotential(LennardJonesPotential&&) noexcept;
   LennardJonesPotential& operator=(LennardJonesPotential&&) noexcept;
 
-  // Positions x0 y0 z0 x1 ..., 3N of them, wrapped or not. Throws std::runtime_error if the length is not 3N.
+  // Positions x0 y0 z0 x1 ..., 3N of them, wrapped or not. Throws std::runtime_error if the length is not 3N or a
+  // coordinate is not finite.
   double energy(std::span<const double> positions);
   // Also forces, -dV/dr, in the order of the positions, and optionally the virial sum r.f.
   double energy_and_forces(std::span<const double> positions, std::span<double> forces, double* virial = nullptr);

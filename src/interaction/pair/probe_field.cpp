@@ -16,6 +16,8 @@
 namespace lanescape {
 namespace {
 
+constexpr double largest_edge = 1e7;  // [ProbeField::length_unit()]
+
 // That of a particle's own images and its own long-range correction.
 double energy_alone(const PairModel& model, const Box& box, int species, double diameter, const kernels::KernelTable& table) {
   Configuration alone{box, {species}, {0.0, 0.0, 0.0}};
@@ -38,6 +40,11 @@ ProbeField::ProbeField(const PairModel& model, const Configuration& fluid, int s
   const std::size_t count = model.species.size();
   if (species < 0 || static_cast<std::size_t>(species) >= count)
     throw_bad_input(fmt::format("species {} of an inserted particle is not allowed: the model has {}", species, count));
+  for (const double edge : box_.length)
+    if (edge > largest_edge * unit_)
+      throw_bad_input(fmt::format(
+          "insertion is not allowed in a box of edge {}: at most {} are, or coordinates in the box lose too many digits", edge,
+          largest_edge * unit_));
   put_fluid(model.in_unit(unit_), fluid, model.form->has_diameters ? scale / unit_ : 1.0);
   if (model.images == ImageRule::minimum && 2.0 * largest_cutoff_ > box_.shortest())
     throw_bad_input(

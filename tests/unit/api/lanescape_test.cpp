@@ -100,6 +100,14 @@ TEST(LennardJonesPotential, RefusesWhatItDoesNotKnow) {
   EXPECT_NE(refused({.isa = "abacus"}).find("unknown instruction set 'abacus'"), std::string::npos);
 }
 
+TEST(LennardJonesPotential, NamesTheCoordinateThatIsNotFinite) {
+  LennardJonesPotential potential(std::vector<int>{0, 0}, {10.0, 10.0, 10.0}, {.model = "lennard-jones"});
+  std::vector<double> positions = {1.0, 1.0, 1.0, 2.0, std::nan(""), 1.0}, forces(6);
+  const std::string expected = "y coordinate nan of particle 1 (from 0) is not allowed: it must be finite";
+  EXPECT_EQ(refusal([&] { potential.energy(positions); }), expected);
+  EXPECT_EQ(refusal([&] { potential.energy_and_forces(positions, forces); }), expected);
+}
+
 TEST(LennardJonesPotential, RefusesSpeciesAndBoxesThatCannotBe) {
   const auto refused = [](int species, double edge, const Options& options) {
     return refusal([&] { LennardJonesPotential(std::vector<int>{0, species}, {10.0, edge, 10.0}, options); });

@@ -86,6 +86,27 @@ TEST_P(OrderedPairsOnEveryIsa, AreThoseOfAllPairsToTheLastBitInBoxesOfEverySize)
 
 // On a lattice with exactly representable distances, a change of the cutoff by its last digit includes or excludes a shell of
 // neighbours.
+TEST_P(OrderedPairsOnEveryIsa, OfClustersInLargeBoxesAreThoseOfAllPairs) {
+  const kernels::KernelTable& table = kernel_table(GetParam());
+  std::mt19937_64 engine(29);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (const double edge : {20.0, 300.0, 1e5, 1e8})
+    for (const double boxes : {0.0, 2.0}) {
+      const Box box{{edge, 1.5 * edge, edge > 100.0 ? 3.0 : edge}};
+      std::vector<double> positions;
+      for (int cluster = 0; cluster < 4; ++cluster) {
+        std::array<double, 3> centre{};  // some at a face
+        for (std::size_t axis = 0; axis < 3; ++axis) centre[axis] = box.length[axis] * (cluster < 2 ? cluster : unit(engine));
+        for (int k = 0; k < 15; ++k)
+          for (std::size_t axis = 0; axis < 3; ++axis)
+            positions.push_back(centre[axis] + 4.0 * (unit(engine) - 0.5) + std::floor(boxes * unit(engine)) * box.length[axis]);
+      }
+      const std::vector<Pair> expected = by_force(box, positions, 2.0);
+      EXPECT_GT(expected.size(), 100U);
+      EXPECT_EQ(as_rows(ordered_pairs(box, positions, 2.0, table)), expected) << edge << " " << boxes;
+    }
+}
+
 TEST_P(OrderedPairsOnEveryIsa, EndBeforeTheCutoffToTheLastDigit) {
   const Box box{{4.0, 4.0, 4.0}};
   std::vector<double> positions;
