@@ -1,5 +1,6 @@
 // What hosts do to the library: other units, other floating-point environments, positions that are not numbers.
 #include <gtest/gtest.h>
+#include <pthread.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <cfenv>
@@ -148,11 +149,51 @@ TEST_P(PairRange, NoTrapOfTheHostStrikes) {
     EXPECT_EQ(status_of([&] {
                 feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
                 return evaluate(kob_andersen(), c, GetParam()) == expected &&
-                       evaluate(kob_andersen(), sparse, GetParam(), {.threads = 2}) == expected_sparse;
+                       evaluate(kob_andersen(), sparse, GetParam()) == expected_sparse;
               }),
               0)
         << n;
   }
+}
+
+TEST_P(PairRange, NoTrapStrikesOnTheLibrarysThreads) {
+  const Configuration c = cubes(8, 1.15);
+  const Result expected = evaluate(kob_andersen(), c, GetParam());
+  EXPECT_EQ(status_of([&] {
+              feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
+              return evaluate(kob_andersen(), c, GetParam(), {.threads = 2}) == expected;
+            }),
+            0);
+}
+
+TEST_P(PairRange, ForkedProcessesGiveTheSameBits) {
+  const Configuration c = cubes(8, 1.15);
+  const Result expected = evaluate(kob_andersen(), c, GetParam(), {.threads = 2});  // this process has threads from here on
+  EXPECT_EQ(status_of([&] {
+              alarm(30);  // a child that waits for threads it does not have
+              return evaluate(kob_andersen(), c, GetParam()) == expected;
+            }),
+            0);
+}
+
+TEST_P(PairRange, ThreadsOfAHostNeedLittleStack) {
+  struct Work {
+    Isa isa;
+    Result results[2];
+  } work{GetParam(), {}};
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  ASSERT_EQ(pthread_attr_setstacksize(&attributes, 64 * 1024), 0);
+  pthread_t thread{};
+  const auto run = [](void* argument) -> void* {
+    auto& work = *static_cast<Work*>(argument);
+    for (int k = 0; k < 2; ++k) work.results[k] = evaluate(kob_andersen(), cubes(3 + 3 * k, 1.15), work.isa);
+    return nullptr;
+  };
+  ASSERT_EQ(pthread_create(&thread, &attributes, run, &work), 0);
+  pthread_join(thread, nullptr);
+  pthread_attr_destroy(&attributes);
+  for (int k = 0; k < 2; ++k) EXPECT_EQ(work.results[k], evaluate(kob_andersen(), cubes(3 + 3 * k, 1.15), GetParam()));
 }
 
 TEST_P(PairRange, BitsDoNotDependOnTheHostsRounding) {
