@@ -114,9 +114,10 @@ void PeriodicPoints::close_wide_gaps(const AlignedArray& positions) {
   for (std::size_t s = 0; s < grids_.size(); ++s) shape_grid(grids_[s], blocks_[s].count);
 }
 
+template <bool sparse>
 std::array<double, 3> PeriodicPoints::home_of(const AlignedArray& positions, std::size_t slot) const {
   std::array<double, 3> home{};
-  if (sparse_) return home;
+  if constexpr (sparse) return home;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double x = positions[axis * layout_slots_ + slot], length = box_.length[axis];
     if (x >= 0.0 && x < length) continue;
@@ -126,10 +127,11 @@ std::array<double, 3> PeriodicPoints::home_of(const AlignedArray& positions, std
   return home;
 }
 
+template <bool sparse>
 std::array<double, 3> PeriodicPoints::shift_of(const Image& image, const std::array<double, 3>& home) const {
   std::array<double, 3> shift{};
   for (std::size_t axis = 0; axis < 3; ++axis) shift[axis] = (image.boxes[axis] + home[axis]) * box_.length[axis];
-  if (sparse_)
+  if constexpr (sparse)
     for (std::size_t axis = 0; axis < 3; ++axis) shift[axis] += home_shifts_[image.slot][axis];
   return shift;
 }
@@ -143,17 +145,18 @@ std::array<int, 3> PeriodicPoints::boxes(std::size_t k) const {
   return boxes;
 }
 
+template <bool sparse>
 void PeriodicPoints::list_images(const AlignedArray& positions, const kernels::SpeciesBlock& block, const Grid& grid,
                                  std::size_t begin, std::size_t end, AlignedVector<Image>& images) const {
   images.clear();
   for (std::size_t slot = block.begin + begin; slot < block.begin + end; ++slot) {
-    const std::array<double, 3> home = home_of(positions, slot);
+    const std::array<double, 3> home = home_of<sparse>(positions, slot);
     std::array<double, 3> x{};
     std::array<std::int16_t, 3> least{}, most{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double length = box_.length[axis];
       x[axis] = positions[axis * layout_slots_ + slot];
-      const double wrapped = x[axis] + (sparse_ ? home_shifts_[slot][axis] : home[axis] * length);
+      const double wrapped = x[axis] + (sparse ? home_shifts_[slot][axis] : home[axis] * length);
       if (wrapped >= grid.margin && wrapped <= length - grid.margin) continue;
       const double down = std::floor((wrapped + grid.margin) / length), up = std::floor((length + grid.margin - wrapped) / length);
       least[axis] = down > 0.0 ? static_cast<std::int16_t>(-down) : std::int16_t{0};
@@ -164,7 +167,7 @@ void PeriodicPoints::list_images(const AlignedArray& positions, const kernels::S
     for (a = least[0]; a <= most[0]; ++a)
       for (b = least[1]; b <= most[1]; ++b)
         for (c = least[2]; c <= most[2]; ++c) {
-          const std::array<double, 3> shift = shift_of(image, home);
+          const std::array<double, 3> shift = shift_of<sparse>(image, home);
           image.cell = static_cast<std::uint32_t>(grid.cell_of({x[0] + shift[0], x[1] + shift[1], x[2] + shift[2]}));
           images.push_back(image);
         }
@@ -175,7 +178,7 @@ void PeriodicPoints::sort(const AlignedArray& positions) {
   slots_.clear();
   shifts_.clear();
   if (sparse_) close_wide_gaps(positions);
-  for (std::size_t s = 0; s < grids_.size(); ++s) sort_species(positions, s);
+  for (std::size_t s = 0; s < grids_.size(); ++s) sparse_ ? sort_species<true>(positions, s) : sort_species<false>(positions, s);
   const std::size_t n = size();
   points_.resize(kernels::point_width * n, 0.0);
   if (fixed_unit_ > 0.0) fixed_points_.resize(kernels::point_width * n, 0);
@@ -188,14 +191,15 @@ void PeriodicPoints::sort(const AlignedArray& positions) {
 }
 
 // A counting sort: each part counts its own particles' images per cell and stores them after those of earlier parts.
+template <bool sparse>
 void PeriodicPoints::sort_species(const AlignedArray& positions, std::size_t species) {
   Grid& grid = grids_[species];
   const std::size_t cell_count = grid.shape.cells[0] * grid.shape.cells[1] * grid.shape.cells[2];
   const kernels::SpeciesBlock& block = blocks_[species];
   for_each_part(threads_, [&](int part) {
     const auto p = static_cast<std::size_t>(part);
-    list_images(positions, block, grid, part_begin(block.count, part, threads_), part_begin(block.count, part + 1, threads_),
-                images_[p]);
+    list_images<sparse>(positions, block, grid, part_begin(block.count, part, threads_),
+                        part_begin(block.count, part + 1, threads_), images_[p]);
     places_[p].assign(cell_count, 0);
     for (const Image& image : images_[p]) ++places_[p][image.cell];
   });
@@ -219,7 +223,7 @@ void PeriodicPoints::sort_species(const AlignedArray& positions, std::size_t spe
     for (const Image& image : images_[p]) {
       const std::uint32_t place = places_[p][image.cell]++;
       slots_[place] = image.slot;
-      shifts_[place] = shift_of(image, home_of(positions, image.slot));
+      shifts_[place] = shift_of<sparse>(image, home_of<sparse>(positions, image.slot));
       own[place - base] = image.boxes == std::array<std::int16_t, 3>{};
     }
   });

@@ -74,10 +74,14 @@ class PeriodicPoints {
   // Narrows the wide gaps of a sparse box: sets the box, its grids and the home shifts.
   void close_wide_gaps(const AlignedArray& positions);
   // Whole boxes that bring a particle into the box, where no home shifts do.
+  template <bool sparse>
   std::array<double, 3> home_of(const AlignedArray& positions, std::size_t slot) const;
+  template <bool sparse>
   std::array<double, 3> shift_of(const Image& image, const std::array<double, 3>& home) const;
+  template <bool sparse>
   void list_images(const AlignedArray& positions, const kernels::SpeciesBlock& block, const Grid& grid, std::size_t begin,
                    std::size_t end, AlignedVector<Image>& images) const;
+  template <bool sparse>
   void sort_species(const AlignedArray& positions, std::size_t species);
   // Of the points [begin, end).
   void fix_points(std::size_t begin, std::size_t end);

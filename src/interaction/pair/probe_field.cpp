@@ -92,9 +92,15 @@ void ProbeField::refresh() {
 }
 
 ProbeField::Point ProbeField::home(const Point& position) const {
-  if (0.0 * (position[0] + position[1] + position[2]) != 0.0) check_finite(position);
   Point home{};
-  for (std::size_t axis = 0; axis < 3; ++axis) home[axis] = box_.wrapped(axis, position[axis]) / unit_;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double x = position[axis];
+    if (!(x >= 0.0 && x < box_.length[axis])) {
+      check_finite({&x, 1});
+      x = box_.wrapped(axis, x);
+    }
+    home[axis] = x / unit_;
+  }
   return home;
 }
 
