@@ -72,8 +72,7 @@ inline std::uint32_t near_columns(const SphereInput& in, const float* scale, std
   return bits(less(squared, range * range));
 }
 
-// Calls visit(i, j), i < j, for every pair that passes the filter, until a call returns true. True also where coordinates are not
-// finite.
+// Calls visit(i, j), i < j, for every pair that passes the filter, until a call returns true.
 template <bool cubic, class Visit>
 inline bool any_near_pair(const SphereInput& in, const float* scale, Visit visit) noexcept {
   const auto each = [&](std::uint32_t mask, std::size_t i, std::size_t j) {
@@ -103,6 +102,7 @@ inline bool any_near_pair(const SphereInput& in, const float* scale, Visit visit
   return false;
 }
 
+// Also true where a coordinate is not finite.
 template <class Visit>
 inline bool any_near_pair(const SphereInput& in, double reach, Visit visit) noexcept {
   float scale[3];

@@ -10,10 +10,9 @@
 
 namespace lanescape {
 
-// The floating-point environment in which the library's results are what they are: rounding to nearest, no traps, gradual
-// underflow. Holds for this thread while the object lives; then the host has its own back, exception flags included. Kernels divide
-// by zero in lanes that are masked out, and the rounding of SSE2 rests on the rounding mode. Costs a few instructions where the
-// host has changed nothing.
+// The floating-point environment that the library relies on: rounding to nearest, no traps, gradual underflow. It holds for this
+// thread while the object lives; then the host gets its own back, exception flags included. Kernels divide by zero in lanes that
+// are masked out, and on SSE2 they round by adding a large number. Costs ten instructions where the host has changed nothing.
 class FloatEnvironment {
  public:
 #if defined(__SSE2__)

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/float_environment.hpp"
 #include "dynamics/maxwell.hpp"
 
 namespace lanescape {
@@ -147,6 +148,7 @@ void EventDriven::wrap(std::size_t i) {
 }
 
 void EventDriven::resynchronise() {
+  const FloatEnvironment environment;
   for (std::size_t i = 0; i < size(); ++i) {
     bring_to_now(i);
     wrap(i);
@@ -198,11 +200,13 @@ bool EventDriven::next_event() {
 }
 
 void EventDriven::collide() {
+  const FloatEnvironment environment;
   while (!next_event()) {
   }
 }
 
 void EventDriven::advance_to(double time) {
+  const FloatEnvironment environment;
   while (next_event_time() <= time) next_event();
   now_ = time - time_base_;
 }

@@ -1,10 +1,12 @@
 #include "run/run_loop.hpp"
 
+#include "core/float_environment.hpp"
 #include "io/hdf5_archive.hpp"
 
 namespace lanescape {
 
 bool run_to_end(ResumableWork& work, const std::string& file, const CheckpointOptions& checkpoint, RunMonitor& monitor) {
+  const FloatEnvironment environment;
   const std::filesystem::path path = checkpoint.folder / file;
   const auto exchange = [&](Archive& archive) {
     work.exchange(archive);

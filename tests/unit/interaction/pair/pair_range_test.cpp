@@ -1,7 +1,6 @@
 // What hosts do to the library: other units, other floating-point environments, positions that are not numbers.
 #include <gtest/gtest.h>
 #include <pthread.h>
-#include <sys/wait.h>
 #include <unistd.h>
 #include <cfenv>
 
@@ -15,10 +14,13 @@
 #include "every_isa.hpp"
 #include "interaction/pair/pair_interaction.hpp"
 #include "interaction/pair/probe_field.hpp"
+#include "own_process.hpp"
 #include "verification/reference_bridge.hpp"
 
 namespace lanescape {
 namespace {
+
+using testing::status_of;
 
 // n x n x n particles on a simple lattice, in a box of this edge or one that they fill.
 Configuration cubes(int n, double spacing, double edge = 0.0) {
@@ -130,16 +132,6 @@ TEST_P(PairRange, TheEnergyOfParticlesInOnePlaceIsNotFinite) {
     EXPECT_FALSE(
         std::isfinite(evaluate(lennard_jones(), {c.box, std::vector<int>(c.size(), 0), c.positions}, GetParam(), {.search = search})
                           .sums.virial));
-}
-
-// Runs a check in a process of its own, where traps kill.
-template <class Check>
-int status_of(Check check) {
-  const pid_t child = fork();
-  if (child == 0) _exit(check() ? 0 : 1);
-  int status = -1;
-  waitpid(child, &status, 0);
-  return status;
 }
 
 TEST_P(PairRange, NoTrapOfTheHostStrikes) {
