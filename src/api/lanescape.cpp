@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "configuration/particle_layout.hpp"
+#include "core/coordinate_checks.hpp"
 #include "core/error.hpp"
 #include "dispatch/isa.hpp"
 #include "interaction/pair/pair_interaction.hpp"
@@ -31,10 +31,7 @@ struct LennardJonesPotential::Implementation {
     if (positions.size() != 3 * layout.size())
       throw_bad_input(fmt::format("{} coordinates were given for {} particles: {} are needed", positions.size(), layout.size(),
                                   3 * layout.size()));
-    for (std::size_t k = 0; k < positions.size(); ++k)
-      if (!std::isfinite(positions[k]))
-        throw_bad_input(fmt::format("{} coordinate {} of particle {} (from 0) is not allowed: it must be finite", "xyz"[k % 3],
-                                    positions[k], k / 3));
+    check_finite_particles(positions);
     return layout.to_slots(positions);
   }
 };

@@ -159,8 +159,6 @@ double largest_packing_fraction(const Packing& packing) {
   return std::min(max_packing_fraction, packing.volume / (edge * edge * edge) * (1.0 - rounding_margin));
 }
 
-}  // namespace
-
 Configuration fcc_start(const Mixture& model, std::size_t particles, double density, std::uint64_t seed, double length_unit) {
   check_particles(particles);
   if (const double most = max_density * std::pow(length_unit, -3); !(density > 0.0 && density <= most))
@@ -172,8 +170,14 @@ Configuration fcc_start(const Mixture& model, std::size_t particles, double dens
   return start;
 }
 
+}  // namespace
+
+Configuration fcc_start(const StateMixtureModel& model, std::size_t particles, double density, std::uint64_t seed) {
+  return fcc_start(model, particles, density, seed, model.length_unit());
+}
+
 Configuration fcc_start(const PairModel& model, std::size_t particles, double density, std::uint64_t seed) {
-  Configuration start = fcc_start(static_cast<const Mixture&>(model), particles, density, seed, model.length_unit());
+  Configuration start = fcc_start(model, particles, density, seed, model.length_unit());
   if (!model.form->has_diameters) return start;
   constexpr double ratio = 0.45, largest = 0.5 * (1.0 + ratio) / ratio, smallest = ratio * largest;
   const double most = 1.0 / (smallest * smallest), least = 1.0 / (largest * largest);

@@ -6,6 +6,7 @@
 #include "configuration/hard_sphere_model.hpp"
 #include "configuration/mixture.hpp"
 #include "configuration/pair_model.hpp"
+#include "configuration/state_mixture_model.hpp"
 
 namespace lanescape {
 
@@ -13,7 +14,7 @@ namespace lanescape {
 // model's proportions (floor(N fraction) of each, the first takes the rest). If N is not 4 n^3, the empty sites are
 // drawn at random too. Throws Error(bad_input) for no particles, more than four million,
 // and densities out of range.
-Configuration fcc_start(const Mixture& model, std::size_t particles, double density, std::uint64_t seed, double length_unit = 1.0);
+Configuration fcc_start(const StateMixtureModel& model, std::size_t particles, double density, std::uint64_t seed);
 
 // The same with a diameter of each particle where the model's have one: the quantiles of the distribution that falls as
 // diameter^-3, with mean 1 and the ratio 0.45 of smallest to largest, in random order. doi 10.1103/PhysRevX.7.021039

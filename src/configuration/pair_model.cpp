@@ -33,8 +33,8 @@ double PairModel::largest_cutoff() const {
   return largest;
 }
 
-double PairModel::length_unit() const {
-  return form->has_diameters ? 1.0 : length_unit_of(*std::max_element(sigma.begin(), sigma.end()));
+double PairModel::length_unit(double largest_diameter) const {
+  return length_unit_of(form->has_diameters ? largest_diameter : *std::max_element(sigma.begin(), sigma.end()));
 }
 
 PairCorrection PairModel::correction(const PairNumbers& numbers) const {
@@ -117,9 +117,7 @@ void PairModel::check_truncation() const {
     const PairCorrection c = reduced.correction(reduced.numbers(ab));
     for (const double number : {c.c0, c.c1, c.c2, c.c4})
       if (!(std::abs(number) <= greatest_epsilon))
-        throw_bad_input(
-            fmt::format("cutoff {} is not allowed: the potential {} is not a number there that a truncation could take off", cutoff,
-                        form->word));
+        throw_bad_input(fmt::format("cutoff {} is not allowed: the potential {} overflows there", cutoff, form->word));
   }
 }
 

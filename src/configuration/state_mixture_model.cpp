@@ -73,6 +73,7 @@ std::size_t StateMixtureModel::most_states() const {
 
 double StateMixtureModel::size_of(std::size_t s, std::size_t t) const {
   double size = cutoff;
+  // A table may begin at zero distance, which is no size.
   for (std::size_t a = 0; a < states_of(s); ++a)
     for (std::size_t b = 0; b < states_of(t); ++b) {
       const double closest = std::visit(Overloaded{[](const LennardJones& lj) { return lj.sigma; },
@@ -92,7 +93,7 @@ double StateMixtureModel::reach(std::size_t s, std::size_t t) const {
   return reach;
 }
 
-// By Lennard-Jones potentials; by reaches where there are tables only.
+// That of the largest Lennard-Jones sigma; where there are tables only, of a sigma whose usual cutoff is the largest reach.
 double StateMixtureModel::length_unit() const {
   constexpr double usual_cutoff = 2.5;
   double largest = 0.0, reach_of_any = 0.0;

@@ -22,15 +22,4 @@ void check_at_least_one(const char* option, std::uint64_t value) {
   if (value == 0) throw_bad_input(fmt::format("{} must be at least 1", option));
 }
 
-void check_edges(std::span<const double> edges) {
-  for (const double edge : edges)
-    if (!(edge >= least_edge && edge <= greatest_edge))
-      throw_bad_input(fmt::format("box edge {} is not allowed: it must be from {} to {}", edge, least_edge, greatest_edge));
-}
-
-void check_finite(std::span<const double> coordinates) {
-  for (const double x : coordinates)
-    if (!std::isfinite(x)) throw_bad_input(fmt::format("coordinate {} of a particle is not allowed: it must be finite", x));
-}
-
 }  // namespace lanescape

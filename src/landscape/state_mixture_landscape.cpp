@@ -9,11 +9,4 @@ StateMixtureLandscape::StateMixtureLandscape(StateMixtureParts parts, const Box&
       algebra_(kernel_table(isa), options.threads),
       interaction_(std::move(parts), box, layout, kernel_table(isa), options) {}
 
-StateMixtureLandscape::StateMixtureLandscape(const StateMixtureModel& model, const Box& box, const ParticleLayout& layout, Isa isa,
-                                             const StateMixture::Options& options)
-    : dimension_(layout.dimension()),
-      particles_(layout.size()),
-      algebra_(kernel_table(isa), options.threads),
-      interaction_(model, box, layout, kernel_table(isa), options) {}
-
 }  // namespace lanescape

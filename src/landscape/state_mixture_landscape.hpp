@@ -12,7 +12,8 @@ class StateMixtureLandscape final : public SoftLandscape {
   StateMixtureLandscape(StateMixtureParts parts, const Box& box, const ParticleLayout& layout, Isa isa,
                         const StateMixture::Options& options = {});
   StateMixtureLandscape(const StateMixtureModel& model, const Box& box, const ParticleLayout& layout, Isa isa,
-                        const StateMixture::Options& options = {});
+                        const StateMixture::Options& options = {})
+      : StateMixtureLandscape(make_parts(model), box, layout, isa, options) {}
 
   std::size_t dimension() const override { return dimension_; }
   std::size_t particles() const override { return particles_; }

@@ -7,7 +7,8 @@ namespace lanescape {
 
 CellGrid::CellGrid(const Box& box, double shortest_edge, std::size_t particles)
     : box_(box), next_(particles, -1), previous_(particles, -1), cell_(particles, 0) {
-  // Many more cells than particles would cost memory and gain nothing. Cells are cubes as nearly as they can be.
+  // Many more cells than particles would cost memory and gain nothing. Cells are cubes as nearly as they can be. Rounding must not
+  // take a cell away where the number is whole.
   const double most_per_edge = 2.0 * std::cbrt(static_cast<double>(particles) / box.volume()) * (1.0 + 1e-12);
   std::array<std::size_t, 3> reach{};  // cells to each side
   around_ = 1;

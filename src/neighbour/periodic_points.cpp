@@ -6,10 +6,11 @@
 #include <bit>
 #include <cmath>
 
+#include "core/coordinate_checks.hpp"
 #include "core/error.hpp"
-#include "core/option_checks.hpp"
 #include "core/parallel.hpp"
 #include "neighbour/closed_gaps.hpp"
+#include "neighbour/least_cell.hpp"
 
 namespace lanescape {
 namespace {
@@ -54,12 +55,9 @@ double PeriodicPoints::largest_margin() const {
 }
 
 void PeriodicPoints::shape_grid(Grid& grid, std::size_t particles) const {
-  double volume = 1.0;
-  for (const double length : box_.length) volume *= length + 2.0 * grid.margin;
   const double density = static_cast<double>(particles) / box_.volume();
-  // A column is so wide that a run within the margin fills a vector; cells are flat, so that a run ends near the margin. Few
-  // particles get few cells: empty space must not cost memory.
-  const double least = std::cbrt(volume / (4.0 * density * volume + 64.0));
+  // A column is so wide that a run within the margin fills a vector; cells are flat, so that a run ends near the margin.
+  const double least = least_cell_edge(box_, grid.margin, particles);
   const double wide = std::clamp(std::sqrt(points_per_run / (1.6 * grid.margin * density)), grid.margin / 3.0, grid.margin);
   const std::array<double, 3> edges = {
       std::max(wide, least), std::max(wide, least),

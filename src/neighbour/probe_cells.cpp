@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "neighbour/least_cell.hpp"
+
 namespace lanescape {
 namespace {
 
@@ -21,10 +23,7 @@ std::size_t cell_along(const kernels::GridShape& shape, std::size_t axis, double
 
 ProbeCells::ProbeCells(const Box& box, double reach, std::size_t expected) : box_(box), reach_(reach) {
   const double density = static_cast<double>(std::max<std::size_t>(expected, 1)) / box.volume();
-  double volume = 1.0;
-  for (const double length : box.length) volume *= length + 2.0 * reach;
-  // Few points get few cells: empty space must not cost memory.
-  const double least = std::cbrt(volume / (4.0 * density * volume + 64.0));
+  const double least = least_cell_edge(box, reach, std::max<std::size_t>(expected, 1));
   const double width = std::max(least, std::clamp(std::sqrt(points_per_run / (2.0 * reach * density)), reach / 4.0, reach));
   const std::array<double, 3> edges = {
       width, width, std::max({reach / cells_per_reach, 0.25 / (width * width * density), least * least * least / (width * width)})};

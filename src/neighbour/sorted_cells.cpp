@@ -1,6 +1,6 @@
 #include "neighbour/sorted_cells.hpp"
 
-#include "core/option_checks.hpp"
+#include "core/coordinate_checks.hpp"
 #include "neighbour/closed_gaps.hpp"
 
 namespace lanescape {

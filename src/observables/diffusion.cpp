@@ -166,10 +166,10 @@ double DiffusionAccumulator::displacement_exponent(std::size_t species) const {
   return squared > 0.0 ? 6.0 * msd_diffusion(species).value * window_.longest_time() / squared : 0.0;
 }
 
-DiffusionRegime DiffusionAccumulator::regime(std::size_t species) const {
+DiffusionRegime DiffusionAccumulator::regime(std::size_t species, double length_unit) const {
   const double exponent = displacement_exponent(species);
   if (exponent > 1.2) return DiffusionRegime::ballistic;
-  const bool moved = squared_displacement(species, points_ - 1).value >= 0.1;
+  const bool moved = squared_displacement(species, points_ - 1).value >= 0.1 * length_unit * length_unit;
   return moved && exponent >= 0.9 ? DiffusionRegime::diffusive : DiffusionRegime::caged;
 }
 

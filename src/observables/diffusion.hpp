@@ -58,7 +58,7 @@ class TrajectoryRecord {
 enum class DiffusionRegime {
   diffusive,
   ballistic,  // displacement_exponent() > 1.2: with an exponential memory, t_max is below six times its time
-  caged,      // displacement_exponent() < 0.9, or the mean squared displacement at t_max is below 0.1 sigma^2
+  caged,      // displacement_exponent() < 0.9, or the mean squared displacement at t_max is below 0.1 length_unit^2
 };
 
 // Diffusion coefficients per species (index: that of the layout's blocks) from trajectories of equal length. Units: D
@@ -98,7 +98,8 @@ class DiffusionAccumulator {
 
   // d ln <|dr|^2>/d ln t at t_max: 2 in free flight, 1 in diffusion, less in a cage, 0 if nothing moves.
   double displacement_exponent(std::size_t species) const;
-  DiffusionRegime regime(std::size_t species) const;
+  // `length_unit`: of the model [sigma].
+  DiffusionRegime regime(std::size_t species, double length_unit = 1.0) const;
 
   // All trajectories so far. Reading data of another window or other species throws Error(bad_input) if their curves differ in
   // length; the caller stores window and layout as well.

@@ -10,9 +10,9 @@
 
 namespace lanescape {
 
-double RadialDistribution::default_range(const Box& box, std::size_t particles) {
+double RadialDistribution::default_range(const Box& box, std::size_t particles, double length_unit) {
   const double half = 0.5 * box.shortest();
-  return particles <= most_for_half_the_box ? half : std::min(half, range_of_large_systems);
+  return particles <= most_for_half_the_box ? half : std::min(half, range_of_large_systems * length_unit);
 }
 
 RadialDistribution::RadialDistribution(const Box& box, const ParticleLayout& layout, std::size_t bins, double range)

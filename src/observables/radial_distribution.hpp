@@ -16,8 +16,8 @@ class RadialDistribution {
   // Up to this many particles g(r) extends to half the shortest edge of the box, at O(N^2) per configuration. For more particles it
   // extends by default to at most 5 sigma, where g(r) of a liquid has converged, at O(N).
   static constexpr std::size_t most_for_half_the_box = 5'000;
-  static constexpr double range_of_large_systems = 5.0;  // [sigma]
-  static double default_range(const Box& box, std::size_t particles);
+  static constexpr double range_of_large_systems = 5.0;  // [length_unit]
+  static double default_range(const Box& box, std::size_t particles, double length_unit = 1.0);
 
   // `range`: at most half the shortest edge [sigma].
   RadialDistribution(const Box& box, const ParticleLayout& layout, std::size_t bins, double range);

@@ -76,11 +76,15 @@ class EndPointWork : public ResumableWork {
   std::vector<double> pair_seconds_;
 };
 
+RadialDistribution radial_distribution_of(const Configuration& start, const ParticleLayout& layout, double length_unit) {
+  return {start.box, layout, rdf_bins, RadialDistribution::default_range(start.box, layout.size(), length_unit)};
+}
+
 class SoftEndPointWork final : public EndPointWork<EndPointGenerator> {
  public:
   SoftEndPointWork(SoftLandscape& landscape, const Mixture& mixture, const ParticleLayout& layout, const Configuration& start,
                    const EndPointOptions& options)
-      : EndPointWork(options.distance, 6, RadialDistribution(start.box, layout, rdf_bins), landscape, mixture, layout,
+      : EndPointWork(options.distance, 6, radial_distribution_of(start, layout, options.length_unit), landscape, mixture, layout,
                      layout.to_slots(start.positions), options),
         chunk_(std::clamp<std::uint64_t>(150'000 / (layout.size() + 1), 1, 1000)),
         particles_(layout.size()) {}
@@ -117,7 +121,8 @@ class HardEndPointWork final : public EndPointWork<HardEndPointGenerator> {
  public:
   HardEndPointWork(const HardSphereModel& model, const ParticleLayout& layout, const Configuration& start,
                    const HardEndPointOptions& options, Isa isa)
-      : EndPointWork(options.distance, 5, RadialDistribution(start.box, layout, rdf_bins), model, layout, start, options, isa),
+      : EndPointWork(options.distance, 5, radial_distribution_of(start, layout, model.length_unit()), model, layout, start, options,
+                     isa),
         layout_(&layout) {}
 
   bool saveable() const override { return generator_.dynamics().at_resync(); }

@@ -20,22 +20,22 @@ std::unique_ptr<HardSphereLandscape> hard_landscape(const SearchSetup& setup) {
 
 std::unique_ptr<PathSearch> begin_contour(const SearchSetup& setup) {
   auto landscape = path_landscape(setup);
-  ContourStepper stepper(
-      *landscape, setup.prepared.landscape_energy,
-      {.direct_step = setup.options.step_length(), .correction = ContourStepper::Options{}.correction * setup.options.length_unit});
+  ContourStepper stepper(*landscape, setup.prepared.landscape_energy,
+                         {.direct_step = setup.options.step_length(setup.model),
+                          .correction = ContourStepper::Options{}.correction * length_unit(setup.model)});
   return begin_search(setup, std::move(landscape), std::move(stepper));
 }
 
 std::unique_ptr<PathSearch> begin_escape(const SearchSetup& setup) {
   auto landscape = path_landscape(setup);
-  EscapeStepper stepper(*landscape, setup.prepared.landscape_energy, {.direct_step = setup.options.step_length()});
+  EscapeStepper stepper(*landscape, setup.prepared.landscape_energy, {.direct_step = setup.options.step_length(setup.model)});
   return begin_search(setup, std::move(landscape), std::move(stepper));
 }
 
 std::unique_ptr<PathSearch> begin_avoidance(const SearchSetup& setup) {
   auto landscape = hard_landscape(setup);
-  AvoidanceStepper stepper(*landscape, {.direct_step = setup.options.step_length(),
-                                        .avoidance_step = setup.options.avoidance_step_length(),
+  AvoidanceStepper stepper(*landscape, {.direct_step = setup.options.step_length(setup.model),
+                                        .avoidance_step = setup.options.avoidance_step_length(setup.model),
                                         .potential = setup.options.fictitious});
   return begin_search(setup, std::move(landscape), std::move(stepper));
 }

@@ -78,9 +78,10 @@ struct Searches {
 
 }  // namespace
 
-void PathRunOptions::check() const {
-  if (method->direct_step) check_positive("step", step_length(), 1.0 * length_unit);
-  check_positive("avoidance step", avoidance_step_length(), 0.1 * length_unit);
+void PathRunOptions::check(const Model& model) const {
+  const double unit = length_unit(model);
+  if (method->direct_step) check_positive("step", step_length(model), 1.0 * unit);
+  check_positive("avoidance step", avoidance_step_length(model), 0.1 * unit);
   if (landscape_energy && method->is_hard) throw_bad_input("hard spheres have no landscape energy: without it only");
   if (landscape_energy && !std::isfinite(*landscape_energy))
     throw_bad_input(fmt::format("landscape energy {} is not allowed: it must be finite", *landscape_energy));
@@ -90,7 +91,7 @@ void PathRunOptions::check() const {
 
 std::vector<PathResult> run_paths(const Model& model, const std::vector<ConfigurationPair>& pairs, const PathRunOptions& options,
                                   Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor) {
-  options.check();
+  options.check(model);
   if (pairs.empty()) throw_bad_input("no pair of end points was given");
   check_method(*options.method, model);
 

@@ -22,9 +22,8 @@ namespace lanescape {
 
 struct PathRunOptions {
   const PathMethod* method = &default_path_method(false);
-  std::optional<double> direct_step;     // delta_di, in 3N space; else the method's own [sigma]
-  std::optional<double> avoidance_step;  // delta_ca, of each particle that moves; else 1e-4 [sigma]
-  double length_unit = 1.0;              // of the model: the steps above that are not given are in it [sigma]
+  std::optional<double> direct_step;     // delta_di, in 3N space; else the method's own in the model's unit of length [sigma]
+  std::optional<double> avoidance_step;  // delta_ca, of each particle that moves; else 1e-4 of that unit [sigma]
   kernels::ContactPotential fictitious = kernels::ContactPotential::harmonic;
   std::optional<double> landscape_energy;  // E_L; else the higher of the two ends [epsilon]
   bool reverse = false;                    // search from the far end too and keep the shorter path
@@ -33,10 +32,12 @@ struct PathRunOptions {
   Precision precision = Precision::double_precision;  // of soft particles
 
   // The length of direct steps; 0 where the method's steps have none.
-  double step_length() const { return method->direct_step ? direct_step.value_or(*method->direct_step * length_unit) : 0.0; }
-  double avoidance_step_length() const { return avoidance_step.value_or(1e-4 * length_unit); }
+  double step_length(const Model& model) const {
+    return method->direct_step ? direct_step.value_or(*method->direct_step * length_unit(model)) : 0.0;
+  }
+  double avoidance_step_length(const Model& model) const { return avoidance_step.value_or(1e-4 * length_unit(model)); }
   // Throws Error(bad_input) naming the option that is out of range.
-  void check() const;
+  void check(const Model& model) const;
 };
 
 struct PathResult {

@@ -27,6 +27,7 @@ DiffusionRunOptions run_options(const DiffusionState& state, const Model& model,
     options.equilibration_collisions = hard->equilibration_collisions;
   } else {
     options = soft_diffusion_options();
+    options.window.interval *= length_unit(model);
     options.equilibration = std::get<EndPointOptions>(protocol);
   }
   options.seed = state.common.seed;
@@ -54,7 +55,9 @@ const char* to_string(DiffusionRegime regime) {
   return "";
 }
 
-Json to_json(const DiffusionRunResult& run, const Mixture& mixture, bool hard) {
+Json to_json(const DiffusionRunResult& run, const Model& model) {
+  const Mixture& mixture = mixture_of(model);
+  const bool hard = is_hard(model);
   Json json;
   const DiffusionAccumulator& d = run.diffusion;
   json["species"] = Json::object();
@@ -69,7 +72,7 @@ Json to_json(const DiffusionRunResult& run, const Mixture& mixture, bool hard) {
       add("diffusion_msd", d.msd_diffusion(s));
       add("diffusion_long_time", d.long_time_diffusion(s));
       species["displacement_exponent"] = d.displacement_exponent(s);
-      species["regime"] = to_string(d.regime(s));
+      species["regime"] = to_string(d.regime(s, length_unit(model)));
     }
   if (hard) {
     json["compressibility"] = run.compressibility;
@@ -122,7 +125,7 @@ Json run_diffusion_command(DiffusionState& state, Options& options, int& status)
   const DiffusionRunResult run =
       run_diffusion(model, start, run_with, isa, {folder.checkpoints(), !state.common.resume.empty()}, monitor);
   const bool hard = is_hard(model);
-  Json result = to_json(run, mixture_of(model), hard);
+  Json result = to_json(run, model);
   result["model"] = mixture_of(model).name;
   if (hard) result["packing_fraction"] = packing_fraction(start);
   if (state.setup.radius_factor()) result["radius_factor"] = *state.setup.radius_factor();

@@ -37,7 +37,6 @@ struct PathState {
     check_method(*options.method, model);
     options.direct_step = step;
     options.avoidance_step = avoidance_step;
-    options.length_unit = length_unit(model);
     if (fictitious) options.fictitious = parse_contact_potential(*fictitious);
     options.landscape_energy = landscape_energy;
     options.reverse = reverse;
@@ -260,9 +259,9 @@ void add_system(Json& json, const PathState& state, const Model& model, const st
 // Resolves and checks everything the run needs, before there is a folder.
 PathInput prepare(PathState& state, Options& options, const Model& model, const PathRunOptions& path_options, Isa isa) {
   options.settle(state.kinds(model, *path_options.method));
-  path_options.check();
+  path_options.check(model);
   state.method = path_options.method->word;
-  if (path_options.method->direct_step) state.step = path_options.step_length();
+  if (path_options.method->direct_step) state.step = path_options.step_length(model);
   const bool makes_pairs = state.pair_files.empty();
   if (makes_pairs) state.setup.settle(model);
   PathInput input = read_input(state, model, isa);

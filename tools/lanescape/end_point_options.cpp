@@ -134,7 +134,7 @@ EndPointOptions EndPointSetup::soft_protocol(EndPointOptions options) const {
 void EndPointSetup::settle(const Model& model) {
   if (!is_hard(model)) {
     if (!temperature_) temperature_ = 1.0;
-    if (!density_ && start_file_.empty()) density_ = 1.2;
+    if (!density_ && start_file_.empty()) density_ = 1.2 * std::pow(length_unit(model), -3);
   } else if (start_file_.empty()) {
     if (!packing_fraction_) packing_fraction_ = 0.5;
     if (!start_method_) start_method_ = "auto";
@@ -145,8 +145,7 @@ Configuration EndPointSetup::start(const Model& model, const CommonOptions& comm
   // Refuses values out of range before any work; the start refuses 0 particles, which have no distance to speak of.
   resolve(model, std::max<std::uint64_t>(particles_, 1), common.seed);
   const auto soft_start = [&](const auto& soft) {
-    return start_file_.empty() ? fcc_start(soft, particles_, density_.value_or(1.2), common.seed)
-                               : read_first_frame(start_file_, model);
+    return start_file_.empty() ? fcc_start(soft, particles_, *density_, common.seed) : read_first_frame(start_file_, model);
   };
   return std::visit(Overloaded{[&](const PairModel& soft) { return soft_start(soft); },
                                [&](const StateMixtureModel& soft) { return soft_start(soft); },

@@ -19,8 +19,8 @@ std::vector<std::string> instruction_sets();
 
 // The potential energy of a Lennard-Jones mixture in a periodic orthorhombic box. Not thread-safe: one object per thread.
 //
-// Results do not depend on the caller's floating-point environment: rounding mode, traps and flushing to zero are set aside during a
-// call. Two particles at one place give an energy and forces that are not finite.
+// Results do not depend on the caller's floating-point environment: rounding mode, traps and flushing to zero are set aside during
+// a call. Two particles at one place give an energy and forces that are not finite.
 class LennardJonesPotential {
  public:
   struct Options {

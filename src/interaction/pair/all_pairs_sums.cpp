@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/option_checks.hpp"
+#include "core/coordinate_checks.hpp"
 #include "interaction/pair/pair_interaction.hpp"
 #include "interaction/pair/pair_parameters.hpp"
 #include "interaction/pair/pair_sums.hpp"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/coordinate_checks.hpp"
 #include "core/error.hpp"
-#include "core/option_checks.hpp"
 
 namespace lanescape {
 

@@ -17,7 +17,7 @@ namespace lanescape {
 
 PairInteraction::PairInteraction(const PairModel& given, const Box& given_box, const ParticleLayout& given_layout,
                                  const kernels::KernelTable& table, const PairSearchOptions& options)
-    : blocks_(given_layout.blocks()), reduced_(length_unit(given, given_layout)) {
+    : blocks_(given_layout.blocks()), reduced_(given.length_unit(diameter_scale(given, given_layout))) {
   const FloatEnvironment environment;
   check_cutoff(given, given_box, diameter_scale(given, given_layout));
   const PairModel model = given.in_unit(reduced_.unit());

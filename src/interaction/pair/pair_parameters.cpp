@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "core/length_unit.hpp"
 
 namespace lanescape {
 
@@ -15,10 +14,6 @@ double diameter_scale(const PairModel& model, const ParticleLayout& layout) {
   if (layout.size() > 0 && diameters.size() == 0)
     throw_bad_input(fmt::format("model {} needs a diameter of each particle, column diameter:R:1 of a file", model.name));
   return diameters.size() == 0 ? 1.0 : *std::max_element(diameters.begin(), diameters.end());
-}
-
-double length_unit(const PairModel& model, const ParticleLayout& layout) {
-  return model.form->has_diameters ? length_unit_of(diameter_scale(model, layout)) : model.length_unit();
 }
 
 std::vector<kernels::PairParameters> pair_parameters(const PairModel& model, double unit) {
@@ -39,7 +34,8 @@ namespace {
 
 // `smallest` and `largest`: diameters of particles that have some of their own.
 void check_single_precision(const PairModel& model, double smallest, double largest) {
-  // Coordinates are rounded to about 2^-29 of the largest reach: so much of the smallest sigma is 2^-24, the rounding of a number.
+  // Coordinates are rounded to 2^-29 of the largest reach, which at this limit is 2^-24 of the smallest diameter: what rounding to
+  // single precision loses anyway.
   constexpr double most_reach_per_size = 32.0, least_epsilon = 1e-10, greatest_epsilon = 1e10;
   const double size = smallest * *std::min_element(model.sigma.begin(), model.sigma.end()),
                reach = largest * model.largest_cutoff();

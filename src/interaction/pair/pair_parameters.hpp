@@ -12,20 +12,17 @@ namespace lanescape {
 // where the form needs diameters and the layout has none.
 double diameter_scale(const PairModel& model, const ParticleLayout& layout);
 
-// The unit of length for these particles.
-double length_unit(const PairModel& model, const ParticleLayout& layout);
-
 // Each species pair's potential as the kernels take it, species x species; lengths in a unit of so many sigma, the nearest image
 // only.
 std::vector<kernels::PairParameters> pair_parameters(const PairModel& model, double unit = 1.0);
+
+// The same for kernels in mixed precision, whose separations are in `fixed_unit` [sigma].
+std::vector<kernels::SinglePairParameters> single_pair_parameters(const std::vector<kernels::PairParameters>& pairs,
+                                                                  double fixed_unit);
 
 // Throws Error(bad_input) where single precision does not resolve the pairs of a model: the largest reach is more than 32 times the
 // smallest diameter, or an epsilon is out of range.
 void check_single_precision(const PairModel& model);
 void check_single_precision(const PairModel& model, const ParticleLayout& layout);  // particles may have diameters of their own
-
-// The same for kernels in mixed precision, whose separations are in `fixed_unit` [sigma].
-std::vector<kernels::SinglePairParameters> single_pair_parameters(const std::vector<kernels::PairParameters>& pairs,
-                                                                  double fixed_unit);
 
 }  // namespace lanescape

@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/coordinate_checks.hpp"
 #include "core/error.hpp"
 #include "core/float_environment.hpp"
-#include "core/length_unit.hpp"
-#include "core/option_checks.hpp"
 #include "interaction/pair/pair_interaction.hpp"
 #include "interaction/pair/pair_parameters.hpp"
 #include "interaction/reduced_positions.hpp"
@@ -34,7 +33,7 @@ ProbeField::ProbeField(const PairModel& model, const Configuration& fluid, int s
   const FloatEnvironment environment;
   double scale = model.form->has_diameters ? diameter : 1.0;
   for (const double d : fluid.diameters) scale = std::max(scale, d);
-  unit_ = model.form->has_diameters ? length_unit_of(scale) : model.length_unit();
+  unit_ = model.length_unit(scale);
   diameter_ = diameter / unit_;
   check_cutoff(model, box_, scale);
   const std::size_t count = model.species.size();

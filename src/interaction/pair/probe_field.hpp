@@ -23,9 +23,10 @@ class ProbeField {
     Point gradient{};     // [epsilon/sigma]
   };
 
-  // `species`: of the probe. Throws what check_cutoff() throws, and Error(bad_input) for a species that the model does not have, for edges above 10^7 length units and
-  // for the minimum-image rule in a box whose shortest edge is below twice the cutoff, where a probe would feel a jump. O(N).
-  // `diameter`: of the probe and of what is put in, where the model's particles have diameters [sigma].
+  // `species`: of the probe. Throws what check_cutoff() throws, and Error(bad_input) for a species that the model does not have,
+  // for edges above 10^7 length units, and for the minimum-image rule in a box whose shortest edge is below twice the cutoff, where
+  // a probe would feel a jump. O(N). `diameter`: of the probe and of what is put in, where the model's particles have diameters
+  // [sigma].
   ProbeField(const PairModel& model, const Configuration& fluid, int species, const kernels::KernelTable& table,
              double diameter = 1.0);
 

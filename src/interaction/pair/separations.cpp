@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/coordinate_checks.hpp"
 #include "core/error.hpp"
 #include "interaction/pair/closest_pair.hpp"
 #include "interaction/pair/separations.hpp"
@@ -11,9 +12,7 @@ namespace lanescape {
 
 void check_separations(const Configuration& configuration, const PairModel& model) {
   check_species(configuration.species, model.species.size());
-  for (std::size_t k = 0; k < configuration.positions.size(); ++k)
-    if (!std::isfinite(configuration.positions[k]))
-      throw_bad_input(fmt::format("particle {}: coordinate {} is not finite", k / 3, configuration.positions[k]));
+  check_finite_particles(configuration.positions);
   const double allowed = model.form->smallest_separation;  // [sigma_ab]
   if (allowed == 0.0) return;
   const auto& diameters = configuration.diameters;

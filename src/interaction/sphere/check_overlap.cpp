@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "configuration/particle_layout.hpp"
+#include "core/coordinate_checks.hpp"
 #include "core/error.hpp"
-#include "core/option_checks.hpp"
 #include "interaction/sphere/hard_sphere_overlap.hpp"
 
 namespace lanescape {

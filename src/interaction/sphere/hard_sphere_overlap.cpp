@@ -6,8 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/coordinate_checks.hpp"
 #include "core/float_environment.hpp"
-#include "core/option_checks.hpp"
 #include "core/padded.hpp"
 
 namespace lanescape {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/coordinate_checks.hpp"
 #include "core/error.hpp"
 #include "core/float_environment.hpp"
-#include "core/option_checks.hpp"
 #include "core/overloaded.hpp"
 #include "interaction/pair/closest_pair.hpp"
 #include "interaction/state/local_density.hpp"
@@ -71,8 +71,10 @@ std::vector<std::unique_ptr<StatePotential>> potentials_of(const StateMixtureMod
 
 }  // namespace
 
-StateMixtureParts make_parts(const StateMixtureModel& model) {
-  model.check();
+StateMixtureParts make_parts(const StateMixtureModel& given) {
+  given.check();
+  const double unit = given.length_unit();
+  const StateMixtureModel model = given.in_unit(unit);
   std::vector<SwitchingFunction> switching;
   std::vector<std::vector<TanhCascade::Step>> steps;
   OneBodyTerms one_body{std::vector<double>(model.species.size() * model.most_states(), 0.0), model.entropy_temperature};
@@ -86,7 +88,7 @@ StateMixtureParts make_parts(const StateMixtureModel& model) {
               one_body.mu.begin() + static_cast<std::ptrdiff_t>(s * model.most_states()));
   }
   return {std::make_unique<LocalDensity>(std::move(switching), model.filter), std::make_unique<TanhCascade>(std::move(steps)),
-          potentials_of(model), std::move(one_body)};
+          potentials_of(model), std::move(one_body), unit};
 }
 
 void check_cutoff(const StateMixtureModel& model, const Box& box) {
@@ -102,9 +104,7 @@ void check_cutoff(const StateMixtureModel& model, const Box& box) {
 
 void check_separations(const Configuration& configuration, const StateMixtureModel& model) {
   check_species(configuration.species, model.species.size());
-  for (std::size_t k = 0; k < configuration.positions.size(); ++k)
-    if (!std::isfinite(configuration.positions[k]))
-      throw_bad_input(fmt::format("particle {}: coordinate {} is not finite", k / 3, configuration.positions[k]));
+  check_finite_particles(configuration.positions);
   double largest = 0.0;
   for (std::size_t s = 0; s < model.species.size(); ++s)
     for (std::size_t t = 0; t < model.species.size(); ++t) largest = std::max(largest, model.size_of(s, t));
@@ -126,13 +126,9 @@ void check_soft_separations(const Configuration& configuration, const Model& mod
 
 StateMixture::StateMixture(StateMixtureParts parts, const Box& box, const ParticleLayout& layout, const kernels::KernelTable& table,
                            const Options& options)
-    : StateMixture(std::move(parts), ReducedPositions(1.0), box, layout, table, options) {}
-
-StateMixture::StateMixture(StateMixtureParts parts, const ReducedPositions& reduced, const Box& box, const ParticleLayout& layout,
-                           const kernels::KernelTable& table, const Options& options)
-    : reduced_(reduced),
-      parts_(std::move(parts)),
-      sites_(reduced.box(box), layout, joint_reaches(parts_, layout.blocks().size()), parts_.response->states(), table,
+    : parts_(std::move(parts)),
+      reduced_(parts_.length_unit),
+      sites_(reduced_.box(box), layout, joint_reaches(parts_, layout.blocks().size()), parts_.response->states(), table,
              {options.threads, options.skin, members(options.search)}),
       values_(layout.slots(), 0.0),
       multipliers_(layout.slots(), 0.0),

@@ -17,15 +17,16 @@ struct OneBodyTerms {
   double entropy_temperature = 0.0;  // k_B T, an input [epsilon]; 0: no such term
 };
 
-// What an interaction is made of, each part independent of the others.
+// What an interaction is made of, each part independent of the others. Their lengths are in `length_unit`, a power of two.
 struct StateMixtureParts {
   std::unique_ptr<OrderParameter> order_parameter;
   std::unique_ptr<StateResponse> response;
   std::vector<std::unique_ptr<StatePotential>> potentials;
   OneBodyTerms one_body;
+  double length_unit = 1.0;  // [sigma]
 };
 
-// The parts that a model file describes.
+// The parts that a model file describes, in the model's unit of length.
 StateMixtureParts make_parts(const StateMixtureModel& model);
 
 // Throws Error(bad_input) where some pair reaches over more images of the box than PairInteraction takes part in.
@@ -44,15 +45,14 @@ class StateMixture {
  public:
   struct Options {
     int threads = 1;                       // that share the rows of the list; no effect on any result
-    double skin = default_skin;            // in the model's unit of length; [sigma] with parts of one's own
+    double skin = default_skin;            // [StateMixtureParts::length_unit]
     PairSearch search = PairSearch::list;  // or all_pairs, which is slow and misses nothing
   };
   StateMixture(StateMixtureParts parts, const Box& box, const ParticleLayout& layout, const kernels::KernelTable& table,
                const Options& options);
   StateMixture(const StateMixtureModel& model, const Box& box, const ParticleLayout& layout, const kernels::KernelTable& table,
                const Options& options)
-      : StateMixture(make_parts(model.in_unit(model.length_unit())), ReducedPositions(model.length_unit()), box, layout, table,
-                     options) {}
+      : StateMixture(make_parts(model), box, layout, table, options) {}
 
   struct Evaluation {
     double energy = 0.0;           // all of U [epsilon]
@@ -72,16 +72,13 @@ class StateMixture {
   void exchange(Archive& archive) { sites_.exchange(archive); }
 
  private:
-  // Parts with lengths in the unit of `reduced`.
-  StateMixture(StateMixtureParts parts, const ReducedPositions& reduced, const Box& box, const ParticleLayout& layout,
-               const kernels::KernelTable& table, const Options& options);
   Evaluation evaluate(const AlignedArray& positions, AlignedArray& gradient, StateSums::Wanted wanted);
   // States, the one-body energy, and what it does to the multipliers.
   double find_states();
   void add_multipliers_of_potentials();
 
-  ReducedPositions reduced_;
   StateMixtureParts parts_;
+  ReducedPositions reduced_;
   Sites sites_;
   AlignedArray values_, multipliers_;  // of each slot: order parameter, dU/d(order parameter)
   AlignedArray slopes_;                // dU/dp

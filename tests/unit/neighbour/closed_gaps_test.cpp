@@ -78,7 +78,8 @@ TEST(ClosedGaps, KeepsNearPairsOfClustersApart) {
     for (std::uint32_t c = 1; c <= clusters; ++c) {
       const double centre = length * random.uniform(which, c, 1);  // some clusters straddle a face, some are boxes away
       for (std::uint32_t k = 0; k < 12; ++k)
-        x.push_back(centre + 6.0 * random.uniform(which, 100 * c + k, 2) + length * static_cast<double>(k % 3) * static_cast<double>(which % 2));
+        x.push_back(centre + 6.0 * random.uniform(which, 100 * c + k, 2) +
+                    length * static_cast<double>(k % 3) * static_cast<double>(which % 2));
     }
     expect_near_pairs_unchanged(x, length, 2.0);
   }

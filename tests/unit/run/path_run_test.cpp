@@ -233,7 +233,7 @@ TEST(PathRun, RefusesPairsByTheirNumber) {
 TEST(PathRun, RefusesOptionsOutOfRange) {
   const auto refused = [](const char* of_method, auto change) {
     Method method(of_method);
-    method.options.check();
+    method.options.check(method.model);
     change(method.options);
     return refusal([&] { method.result(); });
   };

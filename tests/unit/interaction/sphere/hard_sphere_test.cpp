@@ -45,6 +45,22 @@ TEST(HardSphereOverlap, TouchingSpheresDoNotOverlap) {
   EXPECT_TRUE(Row({0.0, 1.0}).spheres.any_overlap(Row({0.0, std::nextafter(1.0, 0.0)}).positions()));
 }
 
+TEST(HardSphereOverlap, PositionsThatAreNotFiniteAreRefused) {
+  for (const Isa isa : available_isas())
+    for (const auto search : {SpherePairSearch::all_pairs, SpherePairSearch::cells})
+      for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+        Row row({0.0, 2.0, 4.0});
+        HardSphereOverlap spheres(row.box, row.layout, {0.5, 0.5, 0.5}, kernel_table(isa), search);
+        HardSphereList list(spheres, 0.1);
+        EXPECT_FALSE(list.any_overlap(row.positions()));
+        row.x[1] = bad;
+        EXPECT_THROW(spheres.any_overlap(row.positions()), Error) << to_string(isa) << " " << bad;
+        EXPECT_THROW(spheres.smallest_gap(row.positions()), Error) << to_string(isa) << " " << bad;
+        EXPECT_THROW(spheres.pairs_within(row.positions(), 0.1), Error) << to_string(isa) << " " << bad;
+        EXPECT_THROW(list.any_overlap(row.positions()), Error) << to_string(isa) << " " << bad;
+      }
+}
+
 TEST(HardSphereOverlap, SmallestGapIsThatOfTheNearestImages) {
   Row row({0.5, 3.0, 9.0});
   EXPECT_EQ(row.spheres.smallest_gap(row.positions()), 0.5);

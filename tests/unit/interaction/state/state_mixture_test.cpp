@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <tuple>
 
 #include "dispatch/isa.hpp"
 #include "interaction/state/local_density.hpp"
@@ -316,8 +317,25 @@ TEST(StateMixture, OverlapsAndFarReachesAreRefused) {
   EXPECT_NE(testing::refusal([&] { check_separations(two, liquid_vapour()); }).find("particles 0 and 1 overlap"),
             std::string::npos);
   two.positions[3] = std::nan("");
-  EXPECT_NE(testing::refusal([&] { check_separations(two, liquid_vapour()); }).find("not finite"), std::string::npos);
+  EXPECT_NE(testing::refusal([&] { check_separations(two, liquid_vapour()); }).find("x coordinate nan of particle 1"),
+            std::string::npos);
   EXPECT_NE(testing::refusal([&] { check_cutoff(liquid_vapour(), {{0.2, 5.0, 5.0}}); }).find("images"), std::string::npos);
+}
+
+TEST(StateMixture, UnitsOfLengthThatArePowersOfTwoChangeNoBit) {
+  const Configuration fluid = state_mixture_fluid(64, 1);
+  const auto in_unit = [&](double unit) {
+    Configuration c = fluid;
+    for (double& edge : c.box.length) edge *= unit;
+    for (double& x : c.positions) x *= unit;
+    const ParticleLayout layout(c.species, 1);
+    StateMixture interaction(liquid_vapour().in_unit(1.0 / unit), c.box, layout, table(), {});
+    AlignedArray gradient(layout.dimension(), 0.0);
+    const auto e = interaction.energy_and_gradient(layout.to_slots(c.positions), gradient);
+    for (double& g : gradient) g *= unit;
+    return std::tuple(e.energy, e.one_body_energy, e.virial, gradient);
+  };
+  for (const double unit : {0x1p-100, 0x1p-20, 0x1p30}) EXPECT_EQ(in_unit(unit), in_unit(1.0)) << unit;
 }
 
 }  // namespace
