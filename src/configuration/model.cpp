@@ -13,16 +13,16 @@ namespace {
 
 struct NamedModel {
   std::string_view name;
-  Model (*make)();
+  AnyModel (*make)();
 };
 
-constexpr NamedModel named_models[] = {{"kob-andersen", [] { return Model(kob_andersen()); }},
-                                       {"lennard-jones", [] { return Model(lennard_jones()); }},
-                                       {"wca", [] { return Model(wca()); }},
-                                       {"wahnstrom", [] { return Model(wahnstrom()); }},
-                                       {"hard-sphere", [] { return Model(hard_sphere()); }},
-                                       {"hard-sphere-binary", [] { return Model(hard_sphere_binary()); }},
-                                       {"ucg", [] { return Model(liquid_vapour()); }}};
+constexpr NamedModel named_models[] = {{"kob-andersen", [] { return AnyModel(kob_andersen()); }},
+                                       {"lennard-jones", [] { return AnyModel(lennard_jones()); }},
+                                       {"wca", [] { return AnyModel(wca()); }},
+                                       {"wahnstrom", [] { return AnyModel(wahnstrom()); }},
+                                       {"hard-sphere", [] { return AnyModel(hard_sphere()); }},
+                                       {"hard-sphere-binary", [] { return AnyModel(hard_sphere_binary()); }},
+                                       {"ucg", [] { return AnyModel(liquid_vapour()); }}};
 
 // A potential is a model of one component under its own word, if no number of it has to be given.
 bool is_named(const PairForm& form) {
@@ -40,7 +40,7 @@ std::string model_names() {
   return names;
 }
 
-Model named_model(std::string_view name) {
+AnyModel named_model(std::string_view name) {
   for (const NamedModel& model : named_models)
     if (name == model.name) return model.make();
   for (const PairForm& form : pair_forms())
@@ -48,11 +48,11 @@ Model named_model(std::string_view name) {
   throw_bad_input(fmt::format("unknown model '{}': allowed are {}", name, model_names()));
 }
 
-const Mixture& mixture_of(const Model& model) {
+const Mixture& mixture_of(const AnyModel& model) {
   return std::visit([](const Mixture& mixture) -> const Mixture& { return mixture; }, model);
 }
 
-double length_unit(const Model& model) {
+double length_unit(const AnyModel& model) {
   return std::visit([](const auto& of_kind) { return of_kind.length_unit(); }, model);
 }
 

@@ -11,14 +11,14 @@
 namespace lanescape {
 
 // The model behind a name or a model file.
-using Model = std::variant<PairModel, HardSphereModel, StateMixtureModel>;
+using AnyModel = std::variant<PairModel, HardSphereModel, StateMixtureModel>;
 
 // The names of all there are, separated by commas.
 std::string model_names();
 // The model of a name; any other throws Error(bad_input) naming all there are.
-Model named_model(std::string_view name);
-const Mixture& mixture_of(const Model& model);
+AnyModel named_model(std::string_view name);
+const Mixture& mixture_of(const AnyModel& model);
 // In which lengths that users leave to the library are given (core/length_unit.hpp) [sigma].
-double length_unit(const Model& model);
+double length_unit(const AnyModel& model);
 
 }  // namespace lanescape

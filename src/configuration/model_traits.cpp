@@ -4,7 +4,7 @@
 
 namespace lanescape {
 
-ModelTraits traits_of(const Model& model) {
+ModelTraits traits_of(const AnyModel& model) {
   return std::visit(Overloaded{[](const PairModel& pairs) {
                                  return ModelTraits{.family = Family::soft,
                                                     .particles = "soft particles",

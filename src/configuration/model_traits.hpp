@@ -16,8 +16,8 @@ struct ModelTraits {
   bool has_states;        // each site has state probabilities
 };
 
-ModelTraits traits_of(const Model& model);
+ModelTraits traits_of(const AnyModel& model);
 
-inline bool is_hard(const Model& model) { return traits_of(model).family == Family::hard; }
+inline bool is_hard(const AnyModel& model) { return traits_of(model).family == Family::hard; }
 
 }  // namespace lanescape

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t largest_file = std::size_t{1} << 20;  // [bytes]
 
-Model read_model(const TomlReader& toml, const std::string& default_name) {
+AnyModel read_model(const TomlReader& toml, const std::string& default_name) {
   const toml::node& kind = toml.need(toml.root(), "kind");
   const std::string word = toml.text(kind, "kind");
   const toml::node* name = toml.root().get("name");
@@ -43,7 +43,7 @@ std::string read_text(const std::filesystem::path& path) {
   return content;
 }
 
-Model parse_model(const std::string& content, const std::string& file, const std::string& default_name) {
+AnyModel parse_model(const std::string& content, const std::string& file, const std::string& default_name) {
   try {
     const toml::table root = toml::parse(content);
     return read_model(TomlReader(file, root), default_name);
@@ -56,11 +56,11 @@ Model parse_model(const std::string& content, const std::string& file, const std
 
 }  // namespace
 
-Model read_model_file(const std::filesystem::path& path) {
+AnyModel read_model_file(const std::filesystem::path& path) {
   return parse_model(read_text(path), path.string(), path.stem().string());
 }
 
-void write_model_file(std::ostream& out, const Model& model) {
+void write_model_file(std::ostream& out, const AnyModel& model) {
   const std::string text = std::visit(
       [](const auto& m) {
         m.check();

@@ -10,9 +10,9 @@ namespace lanescape {
 // A mixture as a TOML file (docs/FORMATS.md). A key that is unknown, missing, given twice or out of range throws
 // Error(bad_input) with file and line. Left out: name is the file's stem, mass is 1, cutoff, truncation and images are
 // PairModel's; fractions are equal and come for all species or none.
-Model read_model_file(const std::filesystem::path& path);
+AnyModel read_model_file(const std::filesystem::path& path);
 
 // Writes what read_model_file reads back as the same model, bit for bit; a model it would refuse throws Error(bad_input).
-void write_model_file(std::ostream& out, const Model& model);
+void write_model_file(std::ostream& out, const AnyModel& model);
 
 }  // namespace lanescape

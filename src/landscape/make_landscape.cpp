@@ -25,7 +25,7 @@ std::unique_ptr<SoftLandscape> make(const StateMixtureModel& model, const Box& b
 
 }  // namespace
 
-std::unique_ptr<SoftLandscape> make_landscape(const Model& model, const Box& box, const ParticleLayout& layout, Isa isa,
+std::unique_ptr<SoftLandscape> make_landscape(const AnyModel& model, const Box& box, const ParticleLayout& layout, Isa isa,
                                               const PairSearchOptions& options) {
   using Result = std::unique_ptr<SoftLandscape>;
   return std::visit(Overloaded{[&](const PairModel& pairs) -> Result {

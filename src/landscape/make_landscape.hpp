@@ -11,7 +11,7 @@ namespace lanescape {
 
 // Makes the landscape of any soft model. Throws Error(bad_input) for hard spheres, and for mixed precision with a model that does
 // not support it.
-std::unique_ptr<SoftLandscape> make_landscape(const Model& model, const Box& box, const ParticleLayout& layout, Isa isa,
+std::unique_ptr<SoftLandscape> make_landscape(const AnyModel& model, const Box& box, const ParticleLayout& layout, Isa isa,
                                               const PairSearchOptions& options = {});
 
 }  // namespace lanescape

@@ -12,7 +12,7 @@
 
 namespace lanescape {
 
-void check_end_points(const ConfigurationPair& pair, const Model& model, const std::string& where) {
+void check_end_points(const ConfigurationPair& pair, const AnyModel& model, const std::string& where) {
   if (!(pair.start.box == pair.finish.box)) throw_bad_input(where + ": the two end points have different boxes");
   if (pair.start.species != pair.finish.species)
     throw_bad_input(where + ": the two end points differ in composition or in the order of their particles");

@@ -19,7 +19,7 @@ struct ConfigurationPair {
 
 // Throws Error(bad_input) where the ends of a pair differ in box, composition or radii, coincide or overlap; the message starts
 // with `where`.
-void check_end_points(const ConfigurationPair& pair, const Model& model, const std::string& where);
+void check_end_points(const ConfigurationPair& pair, const AnyModel& model, const std::string& where);
 
 // Whether both ends look wrapped, and a wrong distance is the likely consequence. Ends of a pair are unwrapped: the distance and
 // the path follow plain differences of positions. Two signs together make the pair suspicious. All coordinates of both frames lie

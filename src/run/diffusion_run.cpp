@@ -242,7 +242,7 @@ DiffusionRunOptions soft_diffusion_options() {
   return options;
 }
 
-DiffusionRunResult run_diffusion(const Model& model, const Configuration& start, const DiffusionRunOptions& options, Isa isa,
+DiffusionRunResult run_diffusion(const AnyModel& model, const Configuration& start, const DiffusionRunOptions& options, Isa isa,
                                  const CheckpointOptions& checkpoint, RunMonitor& monitor) {
   options.check();
   return std::visit(

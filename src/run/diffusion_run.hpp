@@ -44,7 +44,7 @@ struct DiffusionRunResult {
 
 // Self-diffusion from `start`, equilibrated first. Resumes after the last finished trajectory, with the same bits as without an
 // interruption. Throws Error(bad_input) for impossible options or overlapping particles.
-DiffusionRunResult run_diffusion(const Model& model, const Configuration& start, const DiffusionRunOptions& options, Isa isa,
+DiffusionRunResult run_diffusion(const AnyModel& model, const Configuration& start, const DiffusionRunOptions& options, Isa isa,
                                  const CheckpointOptions& checkpoint, RunMonitor& monitor);
 
 }  // namespace lanescape

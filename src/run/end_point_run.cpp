@@ -189,7 +189,7 @@ EndPointRunResult summarise(const EndPointWork<Generator>& work, bool interrupte
 
 }  // namespace
 
-EndPointRunResult run_end_points(const Model& model, const Configuration& start, const EndPointOptions& options, Isa isa,
+EndPointRunResult run_end_points(const AnyModel& model, const Configuration& start, const EndPointOptions& options, Isa isa,
                                  const CheckpointOptions& checkpoint, RunMonitor& monitor) {
   check_soft_separations(start, model);
   const Mixture& mixture = mixture_of(model);

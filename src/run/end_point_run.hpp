@@ -35,7 +35,7 @@ struct EndPointRunResult {
 
 // Runs molecular dynamics from `start` to as many end-point pairs as asked for. Bit-identical for a given seed and instruction
 // set, interrupted and resumed or not. Throws Error(bad_input) for impossible options, overlapping particles or hard spheres.
-EndPointRunResult run_end_points(const Model& model, const Configuration& start, const EndPointOptions& options, Isa isa,
+EndPointRunResult run_end_points(const AnyModel& model, const Configuration& start, const EndPointOptions& options, Isa isa,
                                  const CheckpointOptions& checkpoint, RunMonitor& monitor);
 // The same for hard spheres by event-driven dynamics; `start` has radii and no overlaps.
 EndPointRunResult run_hard_end_points(const HardSphereModel& model, const Configuration& start, const HardEndPointOptions& options,

@@ -31,6 +31,6 @@ const PathMethod& path_method(std::string_view word);
 // The words of a family: "contour, escape".
 std::string path_method_words(bool is_hard, std::string_view separator = ", ");
 // Throws Error(bad_input) if the method is not for this kind of model.
-void check_method(const PathMethod& method, const Model& model);
+void check_method(const PathMethod& method, const AnyModel& model);
 
 }  // namespace lanescape

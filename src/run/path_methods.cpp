@@ -76,7 +76,7 @@ std::string path_method_words(bool is_hard, std::string_view separator) {
   return words;
 }
 
-void check_method(const PathMethod& method, const Model& model) {
+void check_method(const PathMethod& method, const AnyModel& model) {
   if (method.is_hard == is_hard(model)) return;
   throw_bad_input(fmt::format("method {} is not for model {}: {} are for soft particles, {} for hard spheres", method.word,
                               mixture_of(model).name, path_method_words(false, " and "), path_method_words(true, " and ")));

@@ -48,7 +48,7 @@ class SearchMonitor final : public RunMonitor {
 
 // The searches of one run.
 struct Searches {
-  const Model& model;
+  const AnyModel& model;
   const std::vector<ConfigurationPair>& pairs;
   const std::vector<PreparedPair>& prepared;
   const PathRunOptions& options;
@@ -78,7 +78,7 @@ struct Searches {
 
 }  // namespace
 
-void PathRunOptions::check(const Model& model) const {
+void PathRunOptions::check(const AnyModel& model) const {
   const double unit = length_unit(model);
   if (method->direct_step) check_positive("step", step_length(model), 1.0 * unit);
   check_positive("avoidance step", avoidance_step_length(model), 0.1 * unit);
@@ -89,7 +89,7 @@ void PathRunOptions::check(const Model& model) const {
   if (finder.frames > 100'000) throw_bad_input(fmt::format("{} frames are not allowed: at most 100000", finder.frames));
 }
 
-std::vector<PathResult> run_paths(const Model& model, const std::vector<ConfigurationPair>& pairs, const PathRunOptions& options,
+std::vector<PathResult> run_paths(const AnyModel& model, const std::vector<ConfigurationPair>& pairs, const PathRunOptions& options,
                                   Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor) {
   options.check(model);
   if (pairs.empty()) throw_bad_input("no pair of end points was given");

@@ -32,12 +32,12 @@ struct PathRunOptions {
   Precision precision = Precision::double_precision;  // of soft particles
 
   // The length of direct steps; 0 where the method's steps have none.
-  double step_length(const Model& model) const {
+  double step_length(const AnyModel& model) const {
     return method->direct_step ? direct_step.value_or(*method->direct_step * length_unit(model)) : 0.0;
   }
-  double avoidance_step_length(const Model& model) const { return avoidance_step.value_or(1e-4 * length_unit(model)); }
+  double avoidance_step_length(const AnyModel& model) const { return avoidance_step.value_or(1e-4 * length_unit(model)); }
   // Throws Error(bad_input) naming the option that is out of range.
-  void check(const Model& model) const;
+  void check(const AnyModel& model) const;
 };
 
 struct PathResult {
@@ -64,7 +64,7 @@ struct PathResult {
 
 // One path for each pair, paths in parallel. The results depend neither on the number of threads nor on interruption and
 // resumption. Throws Error(bad_input) for a pair that prepare_pair() refuses, and for a method that is not for this kind of model.
-std::vector<PathResult> run_paths(const Model& model, const std::vector<ConfigurationPair>& pairs, const PathRunOptions& options,
+std::vector<PathResult> run_paths(const AnyModel& model, const std::vector<ConfigurationPair>& pairs, const PathRunOptions& options,
                                   Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor);
 
 }  // namespace lanescape

@@ -27,7 +27,7 @@ std::vector<double> displacements(const Configuration& first, const Configuratio
 
 }  // namespace
 
-PreparedPair prepare_pair(const Model& model, const ConfigurationPair& pair, std::size_t number, const PathRunOptions& options,
+PreparedPair prepare_pair(const AnyModel& model, const ConfigurationPair& pair, std::size_t number, const PathRunOptions& options,
                           Isa isa) {
   const std::string where = fmt::format("pair {}", number + 1);
   check_end_points(pair, model, where);

@@ -26,12 +26,12 @@ struct PreparedPair {
 
 // Throws Error(bad_input) for a pair that check_end_points() refuses, for hard spheres of unequal masses, and for an end above a
 // given landscape energy. Messages start with "pair <number + 1>".
-PreparedPair prepare_pair(const Model& model, const ConfigurationPair& pair, std::size_t number, const PathRunOptions& options,
+PreparedPair prepare_pair(const AnyModel& model, const ConfigurationPair& pair, std::size_t number, const PathRunOptions& options,
                           Isa isa);
 
 // What the search for one path starts from.
 struct SearchSetup {
-  const Model& model;
+  const AnyModel& model;
   const ConfigurationPair& pair;
   const PreparedPair& prepared;
   const PathRunOptions& options;

@@ -19,7 +19,7 @@ struct DiffusionState {
   bool plot = false;
 };
 
-DiffusionRunOptions run_options(const DiffusionState& state, const Model& model, const Configuration& start) {
+DiffusionRunOptions run_options(const DiffusionState& state, const AnyModel& model, const Configuration& start) {
   const EndPointProtocol protocol = state.setup.resolve(model, start.size(), state.common.seed);
   DiffusionRunOptions options;
   if (const auto* hard = std::get_if<HardEndPointOptions>(&protocol)) {
@@ -55,7 +55,7 @@ const char* to_string(DiffusionRegime regime) {
   return "";
 }
 
-Json to_json(const DiffusionRunResult& run, const Model& model) {
+Json to_json(const DiffusionRunResult& run, const AnyModel& model) {
   const Mixture& mixture = mixture_of(model);
   const bool hard = is_hard(model);
   Json json;
@@ -110,7 +110,7 @@ void write_curves(OutputFolder& folder, const DiffusionAccumulator& d, const Mix
 Json run_diffusion_command(DiffusionState& state, Options& options, int& status) {
   state.common.check();
   const Isa isa = state.common.resolve_isa();
-  const Model model = state.system.resolve();
+  const AnyModel model = state.system.resolve();
   options.settle(
       joined({state.system.kinds(model, state.setup.generates_start()), state.setup.kinds(false), {state.common.folder_kind()}}));
   state.setup.settle(model);

@@ -13,7 +13,7 @@ struct EndPointsState {
 Json run_endpoints(EndPointsState& state, Options& options, int& status) {
   state.common.check();
   const Isa isa = state.common.resolve_isa();
-  const Model model = state.system.resolve();
+  const AnyModel model = state.system.resolve();
   options.settle(joined({state.system.kinds(model, state.setup.generates_start()), state.setup.kinds(false)}));
   state.setup.settle(model);
   const Configuration start = state.setup.start(model, state.common, isa);

@@ -70,7 +70,7 @@ EnergyResult by_reference(const StateMixtureModel& model, const Configuration& c
   return result;
 }
 
-Json to_json(const EnergyResult& e, const Configuration& configuration, const Model& model, const std::string& isa,
+Json to_json(const EnergyResult& e, const Configuration& configuration, const AnyModel& model, const std::string& isa,
              bool with_forces, bool with_states) {
   Json result;
   result["energy"] = e.energy;
@@ -102,7 +102,7 @@ struct EnergyState {
   bool forces = false, states = false;
 };
 
-[[noreturn]] void refuse_hard_spheres(const Model& model) {
+[[noreturn]] void refuse_hard_spheres(const AnyModel& model) {
   throw_bad_input(fmt::format(
       "energy: model {} is made of hard spheres: allowed are models of pair potentials (kob-andersen, lennard-jones, ...) and ucg",
       mixture_of(model).name));
@@ -111,7 +111,7 @@ struct EnergyState {
 Json run_energy(EnergyState& state, Options& options) {
   state.common.check();
   const Isa isa = state.common.resolve_isa();
-  const Model model = state.system.resolve();
+  const AnyModel model = state.system.resolve();
   options.settle(joined({state.system.kinds(model, false),
                          {kind_if(traits_of(model).has_states, models_with_states, "with states",
                                   fmt::format("with model {}", mixture_of(model).name))}}));

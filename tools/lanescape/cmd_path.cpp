@@ -31,7 +31,7 @@ struct PathState {
   std::optional<double> step, avoidance_step, landscape_energy;
   std::uint64_t max_steps = FinderOptions{}.max_steps, frames = FinderOptions{}.frames;
 
-  PathRunOptions run_options(const Model& model) const {
+  PathRunOptions run_options(const AnyModel& model) const {
     PathRunOptions options;
     options.method = method ? &path_method(*method) : &default_path_method(is_hard(model));
     check_method(*options.method, model);
@@ -47,7 +47,7 @@ struct PathState {
     return options;
   }
 
-  RunKinds kinds(const Model& model, const PathMethod& of_method) const {
+  RunKinds kinds(const AnyModel& model, const PathMethod& of_method) const {
     const std::string with = fmt::format("with method {}", of_method.word);
     return joined({{kind_if(pair_files.empty(), made_pairs, "without --pair", "with --pair")},
                    setup.kinds(!pair_files.empty()),
@@ -69,7 +69,7 @@ void scale_radii(ConfigurationPair& pair, double tolerance, const std::string& w
   }
 }
 
-ConfigurationPair read_pair(const std::filesystem::path& file, const Model& model, double tolerance) {
+ConfigurationPair read_pair(const std::filesystem::path& file, const AnyModel& model, double tolerance) {
   const bool hard = is_hard(model);
   ExtendedXyzReader reader(file, mixture_of(model), traits_of(model).sizes);
   ConfigurationPair pair;
@@ -87,14 +87,14 @@ ConfigurationPair read_pair(const std::filesystem::path& file, const Model& mode
 }
 
 // The factor of scale_radii() when the pair was kept.
-double kept_radius_factor(const std::filesystem::path& file, const Model& model) {
+double kept_radius_factor(const std::filesystem::path& file, const AnyModel& model) {
   const auto info = ExtendedXyzReader(file, mixture_of(model)).next()->info;
   const auto found = info.find(radius_factor_key);
   return found == info.end() ? 1.0 : std::stod(found->second);
 }
 
 // The pairs a resumed run was started with: its folder holds a copy of each, with radii scaled already.
-std::vector<ConfigurationPair> read_kept_pairs(const OutputFolder& folder, const Model& model, double tolerance) {
+std::vector<ConfigurationPair> read_kept_pairs(const OutputFolder& folder, const AnyModel& model, double tolerance) {
   std::vector<ConfigurationPair> pairs;
   for (std::filesystem::path file; std::filesystem::exists(file = folder.path() / pair_file_name(pairs.size()));) {
     pairs.push_back(read_pair(file, model, tolerance));
@@ -196,7 +196,7 @@ struct PathInput {
   EndPointProtocol protocol;
 };
 
-PathInput read_input(PathState& state, const Model& model, Isa isa) {
+PathInput read_input(PathState& state, const AnyModel& model, Isa isa) {
   PathInput input;
   if (!state.pair_files.empty()) {
     if (!state.common.resume.empty()) return input;
@@ -231,7 +231,8 @@ struct Ends {
   bool all = true;
 };
 
-Ends take_ends(const PathState& state, const Model& model, PathInput&& input, Precision precision, Isa isa, OutputFolder& folder) {
+Ends take_ends(const PathState& state, const AnyModel& model, PathInput&& input, Precision precision, Isa isa,
+               OutputFolder& folder) {
   if (state.pair_files.empty()) {
     EndPoints made = make_end_points(model, input.start, input.protocol, isa, folder, state.common, precision);
     return {std::move(made.run.pairs), std::move(made.json), made.reached};
@@ -242,7 +243,7 @@ Ends take_ends(const PathState& state, const Model& model, PathInput&& input, Pr
 }
 
 // Adds the model, its images or radii, instruction set and precision.
-void add_system(Json& json, const PathState& state, const Model& model, const std::vector<ConfigurationPair>& pairs, Isa isa) {
+void add_system(Json& json, const PathState& state, const AnyModel& model, const std::vector<ConfigurationPair>& pairs, Isa isa) {
   json["model"] = mixture_of(model).name;
   if (!is_hard(model))
     json["images"] = to_string(traits_of(model).images);
@@ -257,7 +258,7 @@ void add_system(Json& json, const PathState& state, const Model& model, const st
 }
 
 // Resolves and checks everything the run needs, before there is a folder.
-PathInput prepare(PathState& state, Options& options, const Model& model, const PathRunOptions& path_options, Isa isa) {
+PathInput prepare(PathState& state, Options& options, const AnyModel& model, const PathRunOptions& path_options, Isa isa) {
   options.settle(state.kinds(model, *path_options.method));
   path_options.check(model);
   state.method = path_options.method->word;
@@ -273,7 +274,7 @@ PathInput prepare(PathState& state, Options& options, const Model& model, const 
 Json run_path(PathState& state, Options& options, int& status) {
   state.common.check();
   const Isa isa = state.common.resolve_isa();
-  const Model model = state.system.resolve();
+  const AnyModel model = state.system.resolve();
   const PathRunOptions path_options = state.run_options(model);
   PathInput input = prepare(state, options, model, path_options, isa);
 

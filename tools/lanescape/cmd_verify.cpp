@@ -60,7 +60,7 @@ Json run_verify(VerifyState& state, Options& options, int& status) {
   // The instruction set that a flag or LANESCAPE_ISA names, or all available ones.
   const bool forced = forced_isa(state.common.isa).has_value();
   const std::vector<Isa> isas = forced ? std::vector{state.common.resolve_isa()} : available_isas();
-  const Model model = state.system.resolve();
+  const AnyModel model = state.system.resolve();
   options.settle(
       joined({state.system.kinds(model, false), {kind_if(!state.files.empty(), runs_with_files, "with FILES", "without FILES")}}));
   std::vector<PairCase> cases = pair_cases();

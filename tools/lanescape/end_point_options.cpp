@@ -89,7 +89,7 @@ void take(Target& target, const std::optional<Given>& given) {
 
 }  // namespace
 
-EndPointProtocol EndPointSetup::resolve(const Model& model, std::size_t particles, std::uint64_t seed) const {
+EndPointProtocol EndPointSetup::resolve(const AnyModel& model, std::size_t particles, std::uint64_t seed) const {
   // What both families share.
   const auto shared = [&](auto options) {
     if (quick_) options.make_quick();
@@ -131,7 +131,7 @@ EndPointOptions EndPointSetup::soft_protocol(EndPointOptions options) const {
   return options;
 }
 
-void EndPointSetup::settle(const Model& model) {
+void EndPointSetup::settle(const AnyModel& model) {
   if (!is_hard(model)) {
     if (!temperature_) temperature_ = 1.0;
     if (!density_ && start_file_.empty()) density_ = 1.2 * std::pow(length_unit(model), -3);
@@ -141,7 +141,7 @@ void EndPointSetup::settle(const Model& model) {
   }
 }
 
-Configuration EndPointSetup::start(const Model& model, const CommonOptions& common, Isa isa) {
+Configuration EndPointSetup::start(const AnyModel& model, const CommonOptions& common, Isa isa) {
   // Refuses values out of range before any work; the start refuses 0 particles, which have no distance to speak of.
   resolve(model, std::max<std::uint64_t>(particles_, 1), common.seed);
   const auto soft_start = [&](const auto& soft) {
@@ -206,7 +206,7 @@ void write_equilibration(OutputFolder& folder, const EndPointRunResult& run, con
   });
 }
 
-EndPointRunResult run_protocol(const Model& model, const Configuration& start, const EndPointProtocol& protocol, Isa isa,
+EndPointRunResult run_protocol(const AnyModel& model, const Configuration& start, const EndPointProtocol& protocol, Isa isa,
                                const CheckpointOptions& checkpoint, RunMonitor& monitor, int threads, Precision precision) {
   const auto run_soft = [&] {
     EndPointOptions options = std::get<EndPointOptions>(protocol);
@@ -224,7 +224,7 @@ EndPointRunResult run_protocol(const Model& model, const Configuration& start, c
 
 }  // namespace
 
-EndPoints make_end_points(const Model& model, const Configuration& start, const EndPointProtocol& protocol, Isa isa,
+EndPoints make_end_points(const AnyModel& model, const Configuration& start, const EndPointProtocol& protocol, Isa isa,
                           OutputFolder& folder, const CommonOptions& common, Precision precision) {
   TerminalMonitor monitor(common.quiet);
   EndPoints result{

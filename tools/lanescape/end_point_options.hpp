@@ -28,12 +28,12 @@ class EndPointSetup {
   // The default of --distance: 108 at N = 108, else 10 sqrt(N) [sigma].
   static double default_distance(std::size_t particles);
   // The protocol to run; throws Error(bad_input) for options out of range.
-  EndPointProtocol resolve(const Model& model, std::size_t particles, std::uint64_t seed) const;
+  EndPointProtocol resolve(const AnyModel& model, std::size_t particles, std::uint64_t seed) const;
   // Fills in a state point that was not given, so that the resolved run file has it.
-  void settle(const Model& model);
+  void settle(const AnyModel& model);
   // The initial configuration: --start FILE, else an fcc crystal; for dense hard spheres the result of --start-method. Remembers
   // the radius factor of a file.
-  Configuration start(const Model& model, const CommonOptions& common, Isa isa);
+  Configuration start(const AnyModel& model, const CommonOptions& common, Isa isa);
   // The factor that scaled the radii of --start FILE; empty without such a file.
   const std::optional<double>& radius_factor() const { return radius_factor_; }
   double overlap_tolerance() const { return overlap_tolerance_; }
@@ -63,7 +63,7 @@ struct EndPoints {
   Json json;     // {"pairs": ..., "temperature" or "compressibility": ...}
   bool reached;  // all pairs were made
 };
-EndPoints make_end_points(const Model& model, const Configuration& start, const EndPointProtocol& protocol, Isa isa,
+EndPoints make_end_points(const AnyModel& model, const Configuration& start, const EndPointProtocol& protocol, Isa isa,
                           OutputFolder& folder, const CommonOptions& common, Precision precision);
 
 // In the comment line of a kept pair whose radii were scaled.

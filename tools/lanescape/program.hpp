@@ -52,13 +52,13 @@ struct SystemOptions {
 
   void add_to(Options& options);
   // Throws Error(bad_input) for values that the model does not allow. Options::settle() refuses options without an effect.
-  Model resolve() const;
+  AnyModel resolve() const;
   // The family of the resolved model, whether it has a name or a file, and whether the run generates its particles.
-  RunKinds kinds(const Model& resolved, bool generates_start) const;
+  RunKinds kinds(const AnyModel& resolved, bool generates_start) const;
   // Of soft models.
   Precision resolve_precision() const;
   // Refuses mixed precision in a box that has no neighbour list.
-  void check_precision_in(const Model& model, const Box& box, double skin = default_skin) const;
+  void check_precision_in(const AnyModel& model, const Box& box, double skin = default_skin) const;
   // The model as one of pair potentials; the message that refuses others names the subcommand.
   PairModel resolve_pair_model(const char* subcommand) const;
   // Likewise as one of sites in states.
@@ -67,7 +67,7 @@ struct SystemOptions {
 
 // The first frame of a file of soft particles. Throws Error(bad_input) naming the file if any frame is malformed or the first one
 // has overlaps.
-Configuration read_first_frame(const std::string& file, const Model& model);
+Configuration read_first_frame(const std::string& file, const AnyModel& model);
 // The first frame of a file of hard spheres with its radii, of any species or of the model's. Throws Error(bad_input) if any frame
 // is malformed.
 Configuration read_hard_frame(const std::string& file);
@@ -75,7 +75,7 @@ Configuration read_hard_frame(const std::string& file, const HardSphereModel& mo
 // remove_rounding_overlaps() of interaction/, whose messages then start with the file's name.
 double remove_rounding_overlaps_in(const std::string& file, Configuration& configuration, double tolerance);
 // check_soft_separations() of interaction/, whose messages then start with the file's name.
-void check_separations_in(const std::string& file, const Configuration& configuration, const Model& model);
+void check_separations_in(const std::string& file, const Configuration& configuration, const AnyModel& model);
 
 // Runs of the program: one subcommand each. `run` computes, returns the JSON for stdout and sets the exit status.
 struct Subcommand {

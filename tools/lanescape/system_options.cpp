@@ -66,7 +66,7 @@ void SystemOptions::add_to(Options& options) {
   options.end_group();
 }
 
-RunKinds SystemOptions::kinds(const Model& resolved, bool generates_start) const {
+RunKinds SystemOptions::kinds(const AnyModel& resolved, bool generates_start) const {
   const std::string with = fmt::format("with model {}", mixture_of(resolved).name);
   return {{is_hard(resolved) ? hard_spheres : soft_models, with},
           kind_if(generates_start, generated_starts, "without a file of particles", "with a file of particles"),
@@ -76,8 +76,8 @@ RunKinds SystemOptions::kinds(const Model& resolved, bool generates_start) const
 namespace {
 
 // Refuses a model file of another kind than the name given with it.
-Model read_named(const std::string& file, const std::string& name) {
-  Model model = read_model_file(file);
+AnyModel read_named(const std::string& file, const std::string& name) {
+  AnyModel model = read_model_file(file);
   if (name == "ucg" && !traits_of(model).has_states)
     throw_bad_input(fmt::format("--model ucg: {} is of another kind: a model file of kind ucg is needed", file));
   return model;
@@ -106,8 +106,8 @@ std::vector<Species> with_fractions(std::vector<Species> species, const std::str
 
 }  // namespace
 
-Model SystemOptions::resolve() const {
-  Model resolved = model_file.empty() ? named_model(model) : read_named(model_file, model);
+AnyModel SystemOptions::resolve() const {
+  AnyModel resolved = model_file.empty() ? named_model(model) : read_named(model_file, model);
   std::visit(
       Overloaded{
           [&](PairModel& soft) {
@@ -134,7 +134,7 @@ Model SystemOptions::resolve() const {
 
 Precision SystemOptions::resolve_precision() const { return parse_precision(precision.value_or("double")); }
 
-void SystemOptions::check_precision_in(const Model& model, const Box& box, double skin) const {
+void SystemOptions::check_precision_in(const AnyModel& model, const Box& box, double skin) const {
   std::visit(Overloaded{[&](const PairModel& soft) { check_precision(soft, box, resolve_precision(), skin); },
                         [](const HardSphereModel&) {}, [](const StateMixtureModel&) {}},
              model);
@@ -144,7 +144,7 @@ namespace {
 
 // The model if it is of the kind wanted; refuses every other kind.
 template <class Wanted>
-Wanted only(const Model& resolved, const char* subcommand, const char* allowed) {
+Wanted only(const AnyModel& resolved, const char* subcommand, const char* allowed) {
   return std::visit(Overloaded{[](const Wanted& model) { return model; },
                                [&](const Mixture& other) -> Wanted {
                                  throw_bad_input(fmt::format("{}: model {} is made of {}: {}", subcommand, other.name,
@@ -163,7 +163,7 @@ StateMixtureModel SystemOptions::resolve_state_mixture(const char* subcommand) c
   return only<StateMixtureModel>(resolve(), subcommand, "a model of kind ucg is needed");
 }
 
-void check_separations_in(const std::string& file, const Configuration& configuration, const Model& model) {
+void check_separations_in(const std::string& file, const Configuration& configuration, const AnyModel& model) {
   try {
     check_soft_separations(configuration, model);
   } catch (const Error& error) {
@@ -182,7 +182,7 @@ Configuration first_of(ExtendedXyzReader& reader) {
 
 }  // namespace
 
-Configuration read_first_frame(const std::string& file, const Model& model) {
+Configuration read_first_frame(const std::string& file, const AnyModel& model) {
   ExtendedXyzReader reader(file, mixture_of(model), traits_of(model).sizes);
   Configuration first = first_of(reader);
   check_separations_in(file, first, model);

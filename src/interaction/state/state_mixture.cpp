@@ -117,7 +117,7 @@ void check_separations(const Configuration& configuration, const StateMixtureMod
                                 closest.i, closest.j, std::sqrt(closest.ratio_squared), allowed_ratio));
 }
 
-void check_soft_separations(const Configuration& configuration, const Model& model) {
+void check_soft_separations(const Configuration& configuration, const AnyModel& model) {
   std::visit(
       Overloaded{[&](const PairModel& pairs) { check_separations(configuration, pairs); },
                  [&](const StateMixtureModel& states) { check_separations(configuration, states); }, [](const HardSphereModel&) {}},

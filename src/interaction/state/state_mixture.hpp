@@ -36,7 +36,7 @@ void check_cutoff(const StateMixtureModel& model, const Box& box);
 void check_separations(const Configuration& configuration, const StateMixtureModel& model);
 
 // The same for either kind of soft model; hard spheres are not looked at.
-void check_soft_separations(const Configuration& configuration, const Model& model);
+void check_soft_separations(const Configuration& configuration, const AnyModel& model);
 
 // Energy, gradient and virial of sites whose states follow their surroundings, in passes over pairs that are never nested ([P]):
 // order parameters; energy, forces at fixed p and dU/dp; forces by way of the order parameters. Coordinates are in the layout's

@@ -12,7 +12,7 @@
 namespace lanescape {
 namespace {
 
-std::unique_ptr<SoftLandscape> made(const Model& model, double edge, const PairSearchOptions& options = {}) {
+std::unique_ptr<SoftLandscape> made(const AnyModel& model, double edge, const PairSearchOptions& options = {}) {
   const ParticleLayout layout({0, 0}, mixture_of(model).species.size());
   return make_landscape(model, Box{{edge, edge, edge}}, layout, choose_isa("auto"), options);
 }

@@ -18,7 +18,7 @@ using testing::refusal;
 constexpr std::uint64_t records = 2000;
 
 struct Soft {
-  Model model = kob_andersen();
+  AnyModel model = kob_andersen();
   Configuration start = fcc_start(kob_andersen(), 16, 0.8, 1);
   DiffusionRunOptions options;
 
@@ -35,7 +35,7 @@ struct Soft {
 };
 
 struct Hard {
-  Model model = hard_sphere_binary();
+  AnyModel model = hard_sphere_binary();
   Configuration start = hard_sphere_start(hard_sphere_binary(), 16, 0.2, Arrangement::random, 1);
   DiffusionRunOptions options;
 

@@ -170,7 +170,7 @@ TEST(EndPointRun, RefusesStartsThatOverlapAndHardSpheresWithoutTheirOwnRun) {
 TEST(EndPointRun, RefusesSpeciesThatTheModelDoesNotHave) {
   SilentMonitor monitor;
   const Soft soft;
-  for (const Model& model : {Model(lennard_jones()), Model(hard_sphere())})
+  for (const AnyModel& model : {AnyModel(lennard_jones()), AnyModel(hard_sphere())})
     EXPECT_NE(refusal([&] {
                 run_end_points(model, soft.start, soft.options, choose_isa("auto"), {}, monitor);
               }).find("species 1 is not allowed: the model has 1, numbered from 0"),

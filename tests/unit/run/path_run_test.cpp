@@ -34,7 +34,7 @@ ConfigurationPair hard_pair() {
   return pair;
 }
 
-std::vector<PathResult> search(const Model& model, const std::vector<ConfigurationPair>& pairs, const PathRunOptions& options,
+std::vector<PathResult> search(const AnyModel& model, const std::vector<ConfigurationPair>& pairs, const PathRunOptions& options,
                                const CheckpointOptions& checkpoint = {}) {
   SilentMonitor monitor;
   return run_paths(model, pairs, options, choose_isa("auto"), checkpoint, monitor);
@@ -42,7 +42,7 @@ std::vector<PathResult> search(const Model& model, const std::vector<Configurati
 
 // A method with a suitable model, and steps short enough for many queries of the monitor.
 struct Method {
-  Model model;
+  AnyModel model;
   ConfigurationPair pair;
   PathRunOptions options;
 
@@ -206,7 +206,7 @@ TEST(CheckEndPoints, RefusesEndsThatDoNotBelongTogether) {
 }
 
 TEST(CheckEndPoints, RefusesEndsThatOverlapAndSaysWhich) {
-  const auto refused = [](const Model& model, ConfigurationPair pair, bool first) {
+  const auto refused = [](const AnyModel& model, ConfigurationPair pair, bool first) {
     (first ? pair.start : pair.finish).positions = {5.0, 5.0, 5.0, 5.25, 5.0, 5.0};
     return refusal([&] { check_end_points(pair, model, "here"); });
   };
