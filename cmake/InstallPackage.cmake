@@ -16,7 +16,7 @@ install(FILES ${PROJECT_BINARY_DIR}/lanescape-config.cmake ${PROJECT_BINARY_DIR}
 # Users of a static library must link its dependencies. A prefix holds only one form of the library, so the pkg-config file lists
 # these without --static.
 if(NOT BUILD_SHARED_LIBS)
-  set(LANESCAPE_PC_REQUIRES "fmt, hdf5")
+  set(LANESCAPE_PC_REQUIRES "fmt")
   set(LANESCAPE_PC_LIBS "${OpenMP_CXX_FLAGS} -lpthread")
 endif()
 file(RELATIVE_PATH LANESCAPE_PC_TO_PREFIX ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
