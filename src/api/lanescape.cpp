@@ -13,6 +13,7 @@
 #include "neighbour/neighbour_pairs.hpp"
 
 namespace lanescape {
+LANESCAPE_ABI_BEGIN
 
 const char* version() noexcept { return LANESCAPE_VERSION; }
 
@@ -82,4 +83,5 @@ NeighbourPairs neighbour_pairs(std::span<const double> positions, const std::arr
           .distance = std::move(pairs.distance)};
 }
 
+LANESCAPE_ABI_END
 }  // namespace lanescape

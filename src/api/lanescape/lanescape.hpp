@@ -8,20 +8,22 @@
 #include <vector>
 
 #include <lanescape/version.h>
+#include <lanescape/export.hpp>
 
 // What other programs link against. Reduced units: lengths in sigma, energies in epsilon, k_B = 1.
 namespace lanescape {
+LANESCAPE_ABI_BEGIN
 
 // The library's version, e.g. "0.1.0".
-const char* version() noexcept;
+LANESCAPE_API const char* version() noexcept;
 // Instruction sets the kernels can use on this processor, best last.
-std::vector<std::string> instruction_sets();
+LANESCAPE_API std::vector<std::string> instruction_sets();
 
 // The potential energy of a Lennard-Jones mixture in a periodic orthorhombic box. Not thread-safe: one object per thread.
 //
 // Results do not depend on the caller's floating-point environment: rounding mode, traps and flushing to zero are set aside during
 // a call. Two particles at one place give an energy and forces that are not finite.
-class LennardJonesPotential {
+class LANESCAPE_API LennardJonesPotential {
  public:
   struct Options {
     std::string model = "kob-andersen";  // or "lennard-jones"
@@ -64,6 +66,7 @@ struct NeighbourPairs {
 // and the result is the same on every instruction set. Throws std::runtime_error with one line saying what is wrong and what is
 // allowed: if the number of coordinates is not 3N, a number is not finite, an edge or the cutoff is not above 0, the cutoff is
 // above 32 times the shortest edge, a particle is more than 1e8 boxes away, or there would be more than 1e9 images to look at.
-NeighbourPairs neighbour_pairs(std::span<const double> positions, const std::array<double, 3>& box, double cutoff);
+LANESCAPE_API NeighbourPairs neighbour_pairs(std::span<const double> positions, const std::array<double, 3>& box, double cutoff);
 
+LANESCAPE_ABI_END
 }  // namespace lanescape
