@@ -24,9 +24,19 @@ struct Implementation {
   bool supported;
 };
 
+// The processor's features are not known before the constructors of libgcc have run: a host's own early ones would see SSE2 only.
+void detect_processor() {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_cpu_init();
+#endif
+}
+
 const std::vector<Implementation>& implementations() {
 #define LANESCAPE_ENTRY(name, supported) {Isa::name, &kernels::name::table, supported},
-  static const std::vector<Implementation> all = {LANESCAPE_BUILT_INSTRUCTION_SETS(LANESCAPE_ENTRY)};
+  static const std::vector<Implementation> all = [] {
+    detect_processor();
+    return std::vector<Implementation>{LANESCAPE_BUILT_INSTRUCTION_SETS(LANESCAPE_ENTRY)};
+  }();
 #undef LANESCAPE_ENTRY
   return all;
 }
@@ -53,12 +63,19 @@ std::vector<Isa> available_isas() {
   return isas;
 }
 
-std::optional<Isa> forced_isa(std::string_view request) {
+const std::string& isa_of_environment() {
+  static const std::string value = [] {
+    const char* given = std::getenv("LANESCAPE_ISA");
+    return std::string(given != nullptr ? given : "");
+  }();
+  return value;
+}
+
+std::optional<Isa> forced_isa(std::string_view request, const std::string& environment) {
   std::string wanted(request);
-  std::string where = "--isa";
+  std::string where = "isa";
   if (wanted.empty() || wanted == "auto") {
-    const char* from_environment = std::getenv("LANESCAPE_ISA");
-    wanted = from_environment != nullptr ? from_environment : "";
+    wanted = environment;
     where = "LANESCAPE_ISA";
   }
   if (wanted.empty() || wanted == "auto") return std::nullopt;
@@ -71,7 +88,9 @@ std::optional<Isa> forced_isa(std::string_view request) {
   throw_bad_input(where + ": unknown instruction set '" + wanted + "': available are auto, " + names_of(isas));
 }
 
-Isa choose_isa(std::string_view request) { return forced_isa(request).value_or(available_isas().back()); }
+Isa choose_isa(std::string_view request, const std::string& environment) {
+  return forced_isa(request, environment).value_or(available_isas().back());
+}
 
 const kernels::KernelTable& kernel_table(Isa isa) {
   for (const auto& implementation : implementations())

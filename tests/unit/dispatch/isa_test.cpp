@@ -12,23 +12,6 @@
 namespace lanescape {
 namespace {
 
-// Sets or unsets LANESCAPE_ISA and restores the previous value at the end.
-class Environment {
- public:
-  explicit Environment(const char* value) {
-    if (const char* before = std::getenv(name)) before_ = before;
-    set(value);
-  }
-  ~Environment() { set(before_ ? before_->c_str() : nullptr); }
-  Environment(const Environment&) = delete;
-  Environment& operator=(const Environment&) = delete;
-
- private:
-  static constexpr const char* name = "LANESCAPE_ISA";
-  static void set(const char* value) { value ? setenv(name, value, 1) : unsetenv(name); }
-  std::optional<std::string> before_;
-};
-
 bool is_available(Isa isa) {
   const auto isas = available_isas();
   return std::find(isas.begin(), isas.end(), isa) != isas.end();
@@ -54,24 +37,21 @@ std::string bad_input_of(Call call) {
 }
 
 TEST(ChooseIsa, TakesTheBestWhenNothingIsAsked) {
-  const Environment environment(nullptr);
   const auto isas = available_isas();
   ASSERT_FALSE(isas.empty());
   EXPECT_TRUE(std::is_sorted(isas.begin(), isas.end()));
-  EXPECT_EQ(choose_isa("auto"), isas.back());
-  EXPECT_EQ(choose_isa(""), isas.back());
+  for (const char* request : {"auto", ""})
+    for (const char* environment : {"auto", ""}) EXPECT_EQ(choose_isa(request, environment), isas.back());
 }
 
 TEST(ChooseIsa, FindsEveryAvailableOneByItsName) {
-  const Environment environment(nullptr);
-  for (const Isa isa : available_isas()) EXPECT_EQ(choose_isa(to_string(isa)), isa) << to_string(isa);
+  for (const Isa isa : available_isas()) EXPECT_EQ(choose_isa(to_string(isa), ""), isa) << to_string(isa);
 }
 
 TEST(ChooseIsa, RefusesAnUnknownNameAndListsTheKnownOnes) {
-  const Environment environment(nullptr);
   for (const char* name : {"avx1024", "AVX2", "avx2 ", "neon"}) {
-    const std::string message = bad_input_of([&] { choose_isa(name); });
-    EXPECT_NE(message.find("--isa"), std::string::npos) << message;
+    const std::string message = bad_input_of([&] { choose_isa(name, ""); });
+    EXPECT_EQ(message.find("isa: "), 0U) << message;
     EXPECT_NE(message.find("'" + std::string(name) + "'"), std::string::npos) << message;
     for (const Isa isa : available_isas()) EXPECT_NE(message.find(to_string(isa)), std::string::npos) << message;
   }
@@ -81,46 +61,54 @@ TEST(ChooseIsa, NeverFallsBackFromOneThatIsNotThere) {
   const auto missing = missing_isa();
   if (!missing) GTEST_SKIP() << "every instruction set is compiled in and supported by this processor";
   const std::string name = to_string(*missing);
-  const Environment unset(nullptr);
-  EXPECT_NE(bad_input_of([&] { choose_isa(name); }).find("--isa: instruction set " + name + " is not available"),
-            std::string::npos);
-  const Environment set(name.c_str());
-  EXPECT_NE(bad_input_of([&] { choose_isa("auto"); }).find("LANESCAPE_ISA: instruction set " + name), std::string::npos);
+  EXPECT_EQ(bad_input_of([&] { choose_isa(name, ""); }).find("isa: instruction set " + name + " is not available"), 0U);
+  EXPECT_EQ(bad_input_of([&] { choose_isa("auto", name); }).find("LANESCAPE_ISA: instruction set " + name), 0U);
   EXPECT_NE(bad_input_of([&] { kernel_table(*missing); }).find(name), std::string::npos);
 }
 
 TEST(ChooseIsa, HonoursTheEnvironment) {
-  for (const Isa isa : available_isas()) {
-    const Environment environment(to_string(isa));
-    EXPECT_EQ(choose_isa("auto"), isa);
-    EXPECT_EQ(choose_isa(""), isa);
-  }
-}
-
-TEST(ChooseIsa, TakesAnEmptyOrAutomaticEnvironmentForNone) {
-  for (const char* value : {"", "auto"}) {
-    const Environment environment(value);
-    EXPECT_EQ(choose_isa("auto"), available_isas().back()) << '"' << value << '"';
-  }
+  for (const Isa isa : available_isas())
+    for (const char* request : {"auto", ""}) EXPECT_EQ(choose_isa(request, to_string(isa)), isa);
 }
 
 TEST(ChooseIsa, NamesTheEnvironmentWhereItIsWrong) {
-  const Environment environment("pentium");
-  const std::string message = bad_input_of([] { choose_isa("auto"); });
-  EXPECT_NE(message.find("LANESCAPE_ISA"), std::string::npos) << message;
+  const std::string message = bad_input_of([] { choose_isa("auto", "pentium"); });
+  EXPECT_EQ(message.find("LANESCAPE_ISA: "), 0U) << message;
   EXPECT_NE(message.find("'pentium'"), std::string::npos) << message;
 }
 
 TEST(ChooseIsa, LetsTheRequestWinOverTheEnvironment) {
   const auto isas = available_isas();
   for (const Isa requested : isas) {
-    for (const Isa other : isas) {
-      const Environment environment(to_string(other));
-      EXPECT_EQ(choose_isa(to_string(requested)), requested) << to_string(requested) << " over " << to_string(other);
-    }
-    const Environment wrong("pentium");
-    EXPECT_EQ(choose_isa(to_string(requested)), requested);
+    for (const Isa other : isas)
+      EXPECT_EQ(choose_isa(to_string(requested), to_string(other)), requested)
+          << to_string(requested) << " over " << to_string(other);
+    EXPECT_EQ(choose_isa(to_string(requested), "pentium"), requested);
   }
+}
+
+// Hosts may change their environment in one thread while another one calls the library: it is read once.
+TEST(ChooseIsa, DoesNotSeeLaterChangesOfTheEnvironment) {
+  const std::string before = isa_of_environment();
+  ASSERT_EQ(setenv("LANESCAPE_ISA", "pentium", 1), 0);
+  EXPECT_EQ(isa_of_environment(), before);
+  EXPECT_EQ(choose_isa("auto"), choose_isa("auto", before));
+  before.empty() ? unsetenv("LANESCAPE_ISA") : setenv("LANESCAPE_ISA", before.c_str(), 1);
+}
+
+// What a host's early constructor sees: it may run before libgcc has looked at the processor.
+unsigned seen_early = 0;  // a bit for each; zero before any constructor
+__attribute__((constructor(101))) void look_early() {
+  for (const Isa isa : available_isas()) seen_early |= 1U << static_cast<unsigned>(isa);
+}
+
+TEST(AvailableIsas, AreCompleteInAnEarlyConstructor) {
+  unsigned expected = 0;
+#define LANESCAPE_ENTRY(name, supported) \
+  if (supported) expected |= 1U << static_cast<unsigned>(Isa::name);
+  LANESCAPE_BUILT_INSTRUCTION_SETS(LANESCAPE_ENTRY)
+#undef LANESCAPE_ENTRY
+  EXPECT_EQ(seen_early, expected);
 }
 
 TEST(AvailableIsas, StartWithThePortableOneWhichIsNeverTheBestOnX86) {
