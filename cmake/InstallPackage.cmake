@@ -1,17 +1,26 @@
-# The installed CMake package `lanescape` with its target `lanescape::lanescape`, and a pkg-config file. Both compute their prefix
-# from their own location, so an installation can be moved.
+# The installed CMake package `lanescape`, with an export set for each of its components, and a pkg-config file. All compute their
+# prefix from their own location, so an installation can be moved.
 include(CMakePackageConfigHelpers)
 
-set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/lanescape)
-install(TARGETS lanescape EXPORT lanescape-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/api/lanescape ${PROJECT_BINARY_DIR}/generated/lanescape DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-        FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp")
-
-install(EXPORT lanescape-targets NAMESPACE lanescape:: DESTINATION ${package_dir})
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/lanescape-config.cmake.in ${PROJECT_BINARY_DIR}/lanescape-config.cmake
-                              INSTALL_DESTINATION ${package_dir})
+                              INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lanescape)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/lanescape-config-version.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/lanescape-config.cmake ${PROJECT_BINARY_DIR}/lanescape-config-version.cmake DESTINATION ${package_dir})
+
+# lanescape_install_component(<component> <targets>): installs targets as an install component, which is a component of the package too.
+function(lanescape_install_component component)
+  string(TOLOWER ${component} name)
+  install(TARGETS ${ARGN} EXPORT lanescape-${name} COMPONENT ${component}
+          RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${component}
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${component}
+          LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${component})
+  install(EXPORT lanescape-${name} NAMESPACE lanescape:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lanescape COMPONENT ${component})
+  install(FILES ${PROJECT_BINARY_DIR}/lanescape-config.cmake ${PROJECT_BINARY_DIR}/lanescape-config-version.cmake
+          DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lanescape COMPONENT ${component})
+endfunction()
+
+lanescape_install_component(CXX lanescape)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/api/lanescape ${PROJECT_BINARY_DIR}/generated/lanescape DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+        COMPONENT CXX FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp")
 
 # Users of a static library must link its dependencies. A prefix holds only one form of the library, so the pkg-config file lists
 # these without --static.
@@ -22,4 +31,4 @@ endif()
 file(RELATIVE_PATH LANESCAPE_PC_TO_PREFIX ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 string(REGEX REPLACE "/$" "" LANESCAPE_PC_TO_PREFIX "${LANESCAPE_PC_TO_PREFIX}")
 configure_file(${PROJECT_SOURCE_DIR}/cmake/lanescape.pc.in ${PROJECT_BINARY_DIR}/lanescape.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/lanescape.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+install(FILES ${PROJECT_BINARY_DIR}/lanescape.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT CXX)

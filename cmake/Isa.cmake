@@ -18,10 +18,16 @@ foreach(line IN LISTS lines)
   list(APPEND LANESCAPE_ALL_ISAS ${isa})
 endforeach()
 
+string(TOLOWER "${CMAKE_SYSTEM_PROCESSOR}" processor)  # systems write x86_64, amd64 or AMD64
+set(LANESCAPE_ON_X86_64 OFF)
+if(processor MATCHES "^(x86_64|amd64)$")
+  set(LANESCAPE_ON_X86_64 ON)
+endif()
+
 set(LANESCAPE_ISAS "" CACHE STRING
     "Instruction sets to compile the kernels for (${LANESCAPE_ALL_ISAS}); empty: all of this architecture; native: the best of this machine")
 if(NOT LANESCAPE_ISAS)
-  if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
+  if(LANESCAPE_ON_X86_64)
     set(LANESCAPE_ISAS ${LANESCAPE_ALL_ISAS})
     if(NOT LANESCAPE_BUILD_TESTS)
       list(REMOVE_ITEM LANESCAPE_ISAS generic)  # on x86-64 the portable one is only for tests

@@ -1,7 +1,7 @@
 # lanescape_native_isa(<variable>): the last instruction set of cmake/instruction_sets.txt whose features this machine's processor has.
 # A small program finds it, once per build folder.
 function(lanescape_native_isa variable)
-  if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
+  if(NOT LANESCAPE_ON_X86_64)
     set(LANESCAPE_NATIVE_ISA generic)
   elseif(NOT LANESCAPE_NATIVE_ISA)
     set(source "#include <cstdio>\nint main() {\n  const char* best = \"\";\n")
