@@ -119,6 +119,7 @@ Json run_diffusion_command(DiffusionState& state, Options& options, int& status)
   DiffusionRunOptions run_with = run_options(state, model, start);
   run_with.equilibration.threads = state.common.threads;
   run_with.equilibration.precision = state.system.resolve_precision();
+  if (state.plot) check_plots();
   OutputFolder folder = open_folder(state.common);
   folder.write_run_file("diffusion", options.resolved());
   TerminalMonitor monitor(state.common.quiet);
@@ -135,7 +136,7 @@ Json run_diffusion_command(DiffusionState& state, Options& options, int& status)
   status = run.interrupted || !run.equilibrated ? goal_not_reached : done;
   if (folder.exists()) write_curves(folder, run.diffusion, mixture_of(model));
   write_result(folder, "diffusion", options.resolved(), result);
-  if (state.plot) draw_plots(folder.path(), state.common);
+  if (state.plot) draw_plots(folder.path(), status);
   return result;
 }
 

@@ -127,10 +127,11 @@ Json run_insert(InsertState& state, Options& options, int& status) {
   options.settle(joined({state.system.kinds(model, state.file.empty()),
                          kinds_of(state),
                          {kind_if(model.form->has_diameters, own_diameters, with_model, with_model)}}));
+  if (state.plot) check_plots();
   Json result = state.scan      ? run_scan(state, options, model, isa, status)
                 : state.densify ? run_growth(state, options, model, isa, status)
                                 : run_into_file(state, options, model, isa, status);
-  if (state.plot) draw_plots(state.common.out.empty() ? state.common.resume : state.common.out, state.common);
+  if (state.plot) draw_plots(state.common.out.empty() ? state.common.resume : state.common.out, status);
   return result;
 }
 

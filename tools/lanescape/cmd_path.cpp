@@ -278,6 +278,7 @@ Json run_path(PathState& state, Options& options, int& status) {
   const PathRunOptions path_options = state.run_options(model);
   PathInput input = prepare(state, options, model, path_options, isa);
 
+  if (state.plot) check_plots();
   OutputFolder folder = open_folder(state.common);
   folder.write_run_file("path", options.resolved());
   warn_of_wrapped_pairs(state, input.pairs);
@@ -294,7 +295,7 @@ Json run_path(PathState& state, Options& options, int& status) {
   status = all_reached ? done : goal_not_reached;
   if (folder.exists()) write_files(folder, paths, *path_options.method, mixture_of(model));
   write_result(folder, "path", options.resolved(), result);
-  if (state.plot) draw_plots(folder.path(), state.common);
+  if (state.plot) draw_plots(folder.path(), status);
   return result;
 }
 

@@ -37,6 +37,7 @@ Json run_slab_command(SlabState& state, Options& options, int& status) {
   state.slab.seed = state.common.seed;
   state.slab.threads = state.common.threads;
   state.slab.check_against(model);
+  if (state.plot) check_plots();
   OutputFolder folder = open_folder(state.common);
   folder.write_run_file("slab", options.resolved());
   TerminalMonitor monitor(state.common.quiet);
@@ -58,7 +59,7 @@ Json run_slab_command(SlabState& state, Options& options, int& status) {
     write_frame(out, run.last, model, {{"temperature", fmt::format("{}", state.slab.temperature)}});
   });
   write_result(folder, "slab", options.resolved(), result);
-  if (state.plot) draw_plots(folder.path(), state.common);
+  if (state.plot) draw_plots(folder.path(), status);
   return result;
 }
 
