@@ -95,7 +95,8 @@ function(lanescape_add_isa_objects name)
       target_link_libraries(${target} PRIVATE xsimd)
     endif()
     target_link_libraries(${target} PRIVATE lanescape_warnings)
-    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    # Never one source: each potential takes long enough.
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON UNITY_BUILD OFF)
   endforeach()
 endfunction()
 

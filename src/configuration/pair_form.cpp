@@ -15,7 +15,7 @@ namespace {
 using Coefficients = std::span<double, kernels::pair_coefficients>;
 
 // 4 epsilon [(sigma/r)^12 - (sigma/r)^6]
-PairForm lennard_jones() {
+PairForm twelve_six() {
   PairForm form;
   form.word = "lennard-jones";
   form.kernel = kernels::PairForm::lennard_jones;
@@ -239,7 +239,7 @@ PairForm polydisperse() {
 
 std::span<const PairForm> pair_forms() {
   static const std::vector<PairForm> forms = {
-      lennard_jones(),  mie(), inverse_power(), yukawa(), soft_sphere<4>("harmonic"), soft_sphere<5>("hertzian"), polydisperse(),
+      twelve_six(),     mie(), inverse_power(), yukawa(), soft_sphere<4>("harmonic"), soft_sphere<5>("hertzian"), polydisperse(),
       twelve_six_four()};
   return forms;
 }

@@ -17,7 +17,7 @@ using namespace xyz;
 constexpr std::size_t most_particles = 10'000'000;
 constexpr std::size_t longest_line = std::size_t{1} << 20;  // [bytes]; keeps a file without line ends out of memory
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-constexpr std::size_t most_species = 118;  // of a reader that accepts any; there are no more elements
+constexpr std::size_t most_elements = 118;  // of a reader that accepts any; there are no more elements
 
 int parse_species(std::string_view word, const Mixture& mixture) {
   for (std::size_t s = 0; s < mixture.species.size(); ++s)
@@ -89,8 +89,8 @@ int ExtendedXyzReader::species_of(std::string_view word) {
   auto& species = mixture_.species;
   const auto is_it = [&](const Species& s) { return s.name == word; };
   if (accepts_any_species_ && std::none_of(species.begin(), species.end(), is_it)) {
-    if (species.size() == most_species)
-      throw Refusal{fmt::format("species '{}' is one too many: at most {} are allowed", printable(word), most_species)};
+    if (species.size() == most_elements)
+      throw Refusal{fmt::format("species '{}' is one too many: at most {} are allowed", printable(word), most_elements)};
     species.push_back({std::string(word)});
   }
   return parse_species(word, mixture_);

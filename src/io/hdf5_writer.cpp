@@ -17,6 +17,10 @@ namespace {
 constexpr std::size_t largest_compact = 8192;
 constexpr std::size_t chunk_bytes = std::size_t{1} << 19;
 
+}  // namespace
+
+namespace hdf5 {
+
 // The memory of a file under construction, lent to the library's in-memory driver through its callbacks. It outlives the
 // file: only closing gives the superblock its last state and checksum, and H5Fget_file_image of release 1.10 leaves a wrong one.
 class FileMemory {
@@ -54,7 +58,7 @@ class FileMemory {
   std::size_t size_ = 0;
 };
 
-}  // namespace
+}  // namespace hdf5
 
 struct Hdf5Writer::Impl {
   explicit Impl(const std::filesystem::path& path) : path_(path.string()), temporary_(path) {}

@@ -9,7 +9,7 @@ namespace lanescape {
 namespace {
 
 // The number of points that fills a vector in the middle column of a probe's reach.
-constexpr double points_per_run = 8.0;
+constexpr double points_per_probe_run = 8.0;
 // Cells are low, so that a run ends near the reach.
 constexpr double cells_per_reach = 6.0;
 
@@ -24,7 +24,7 @@ std::size_t cell_along(const kernels::GridShape& shape, std::size_t axis, double
 ProbeCells::ProbeCells(const Box& box, double reach, std::size_t expected) : box_(box), reach_(reach) {
   const double density = static_cast<double>(std::max<std::size_t>(expected, 1)) / box.volume();
   const double least = least_cell_edge(box, reach, std::max<std::size_t>(expected, 1));
-  const double width = std::max(least, std::clamp(std::sqrt(points_per_run / (2.0 * reach * density)), reach / 4.0, reach));
+  const double width = std::max(least, std::clamp(std::sqrt(points_per_probe_run / (2.0 * reach * density)), reach / 4.0, reach));
   const std::array<double, 3> edges = {
       width, width, std::max({reach / cells_per_reach, 0.25 / (width * width * density), least * least * least / (width * width)})};
   std::size_t columns = 1;
