@@ -95,8 +95,9 @@ function(lanescape_add_isa_objects name)
       target_link_libraries(${target} PRIVATE xsimd)
     endif()
     target_link_libraries(${target} PRIVATE lanescape_warnings)
-    # Never one source: each potential takes long enough.
-    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON UNITY_BUILD OFF)
+    # Whatever a host asks for: never one source, since each potential takes long enough, and never optimised together with code for
+    # other processors.
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON UNITY_BUILD OFF INTERPROCEDURAL_OPTIMIZATION OFF)
   endforeach()
 endfunction()
 

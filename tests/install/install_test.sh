@@ -89,7 +89,7 @@ if [ -e "$program" ]; then
   configure "$host/program" program
   [ "$(cat "$work/program/program")" = "$program" ] || fail "lanescape::program is another file than $program"
   "$program" info >/dev/null || fail "the installed program fails"
-  [ -e "$prefix/share/lanescape/plot.py" ] || fail "plot.py is not installed beside the program"
+  "$prefix/share/lanescape/plot.py" --help >/dev/null || fail "plot.py is not installed with the program, or not with all its modules"
   cmake --install "$build" --component Program --prefix "$work/alone" >/dev/null
   [ ! -e "$work/alone/include" ] || fail "component Program installs headers"
   [ -e "$work/alone/bin/lanescape" ] || fail "component Program lacks the program"
