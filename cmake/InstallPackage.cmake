@@ -6,6 +6,12 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/lanescape-config.cmake
                               INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lanescape)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/lanescape-config-version.cmake COMPATIBILITY SameMinorVersion)
 
+# lanescape_install_config(<component>): with a component's own file, lanescape-<component in small letters>.cmake, what finds it.
+function(lanescape_install_config component)
+  install(FILES ${PROJECT_BINARY_DIR}/lanescape-config.cmake ${PROJECT_BINARY_DIR}/lanescape-config-version.cmake
+          DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lanescape COMPONENT ${component})
+endfunction()
+
 # lanescape_install_component(<component> <targets>): installs targets as an install component, which is a component of the package too.
 function(lanescape_install_component component)
   string(TOLOWER ${component} name)
@@ -14,8 +20,7 @@ function(lanescape_install_component component)
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${component}
           LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${component})
   install(EXPORT lanescape-${name} NAMESPACE lanescape:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lanescape COMPONENT ${component})
-  install(FILES ${PROJECT_BINARY_DIR}/lanescape-config.cmake ${PROJECT_BINARY_DIR}/lanescape-config-version.cmake
-          DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lanescape COMPONENT ${component})
+  lanescape_install_config(${component})
 endfunction()
 
 lanescape_install_component(CXX lanescape)

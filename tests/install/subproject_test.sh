@@ -1,6 +1,6 @@
 #!/bin/sh
 # Configures tests/install/subproject, a host that takes the source tree in by add_subdirectory: its build type, its flags and its
-# installation remain its own, and the library is optimised all the same. Nothing is compiled.
+# installation remain its own, and the library is optimised all the same, for every instruction set. Nothing is compiled.
 #
 # Usage: subproject_test.sh BUILD_DIR SOURCE_DIR
 set -eu
@@ -48,3 +48,14 @@ configure own -DCMAKE_CXX_FLAGS=-O2
 case $ours in
   *-O3*) fail "a host's own -O2 is changed to -O3" ;;
 esac
+
+# The name of the processor is a matter of taste.
+for processor in amd64 AMD64; do
+  configure $processor -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=$processor
+  for isa in sse2 avx2 avx512; do
+    case $ours in
+      *-DLANESCAPE_ISA=$isa*) ;;
+      *) fail "processor $processor: no kernels for $isa" ;;
+    esac
+  done
+done
