@@ -11,27 +11,30 @@ namespace lanescape {
 // Until then two particles have approached each other by less than the skin, so no pair within the cutoff is missed.
 class HalfSkin {
  public:
-  HalfSkin(double skin, const kernels::KernelTable& table) : skin_(skin), table_(&table) {}
+  HalfSkin(double skin, const kernels::KernelTable& table) : skin_(skin), table_(&table) { allow(skin); }
 
   double skin() const { return skin_; }
+  // Two particles may approach each other by this from now on, where a box that changed uses up some of the skin.
+  void allow(double approach) { allowed_ = 0.499 * approach; }  // a little less than half: displacements are rounded too
   // The positions of the last rebuild; empty before the first.
   const AlignedArray& reference() const { return reference_; }
   AlignedArray& reference() { return reference_; }
-  void rebuilt_at(const AlignedArray& positions) { reference_ = positions; }
+  void rebuilt_at(const AlignedArray& positions) {
+    reference_ = positions;
+    allow(skin_);
+  }
 
   // Whether a particle in slots [begin, end), multiples of slot_padding, has moved too far; also true for positions that are not
   // numbers, and before the first rebuild.
   bool is_due(const AlignedArray& positions, std::size_t begin, std::size_t end) const {
     if (reference_.empty()) return true;
-    // A little less than half the skin: the displacement is rounded too.
-    const double allowed = 0.499 * skin_;
     return !(table_->largest_displacement_squared(reference_.data(), positions.data(), positions.size() / 3, begin, end) <=
-             allowed * allowed);
+             allowed_ * allowed_);
   }
   bool is_due(const AlignedArray& positions) const { return is_due(positions, 0, positions.size() / 3); }
 
  private:
-  double skin_;
+  double skin_, allowed_ = 0.0;  // allowed_: displacement of one particle
   const kernels::KernelTable* table_;
   AlignedArray reference_;
 };

@@ -17,6 +17,12 @@ std::vector<double> with_skin(std::vector<double> cutoffs, double skin) {
   return cutoffs;
 }
 
+double longest(const std::vector<double>& lengths) {
+  double longest = 0.0;
+  for (const double length : lengths) longest = std::max(longest, length);
+  return longest;
+}
+
 // For each species the largest reach of a search for it.
 std::vector<double> margins(const std::vector<double>& reaches, std::size_t species) {
   std::vector<double> margins(species, 0.0);
@@ -38,17 +44,22 @@ NeighbourList::NeighbourList(const Box& box, const ParticleLayout& layout, const
     : table_(&table),
       slots_(layout.slots()),
       reaches_(with_skin(cutoffs, skin)),
-      half_skin_(skin, table),
-      own_images_left_out_(members == Members::others &&
-                           std::any_of(reaches_.begin(), reaches_.end(), [&](double reach) { return reach >= box.shortest(); })),
-      everywhere_(members == Members::every_point ? 4.0 * std::hypot(box.length[0], box.length[1], box.length[2]) +
-                                                        4.0 * *std::max_element(reaches_.begin(), reaches_.end())
-                                                  : 0.0),
+      members_(members),
+      frame_(box, skin, longest(cutoffs), table),
       threads_(threads),
       points_(box, layout, margins(reaches_, layout.blocks().size()), threads,
               coordinates == Coordinates::floating ? 0.0 : unit_for(reaches_, skin)),
       neighbours_(static_cast<std::size_t>(threads)) {
   for (const auto& block : layout.blocks()) counts_.push_back(static_cast<double>(block.count));
+  prepare(box);
+}
+
+void NeighbourList::prepare(const Box& box) {
+  const double longest_reach = longest(reaches_);
+  own_images_left_out_ = members_ == Members::others && longest_reach >= box.shortest();
+  everywhere_ =
+      members_ == Members::every_point ? 4.0 * (std::hypot(box.length[0], box.length[1], box.length[2]) + longest_reach) : 0.0;
+  points_.set_box(box);
 }
 
 // Estimated for a fluid that fills the box evenly; otherwise the list grows.
@@ -77,17 +88,45 @@ kernels::NeighbourRows NeighbourList::rows_of(std::size_t block) const {
 }
 
 void NeighbourList::update(const AlignedArray& positions) {
-  if (half_skin_.reference().empty()) return rebuild(positions);
-  const std::size_t units = slots_ / kernels::slot_padding;
-  std::atomic<bool> due = false;
+  if (frame_.is_empty()) return rebuild(positions);
+  if (!moved_too_far(positions)) return;
+  if (!take_out_boxes(positions) || moved_too_far(positions)) rebuild(positions);
+}
+
+namespace {
+
+// The slots of a part are multiples of the kernels' padding.
+std::size_t first_slot(std::size_t slots, int part, int parts) {
+  return part_begin(slots / kernels::slot_padding, part, parts) * kernels::slot_padding;
+}
+
+}  // namespace
+
+bool NeighbourList::moved_too_far(const AlignedArray& positions) {
+  std::atomic<bool> too_far = false;
   // Points are refreshed in the same pass: it is rarely in vain, and threads wait for each other once less.
   for_each_part(threads_, [&](int part) {
-    if (half_skin_.is_due(positions, part_begin(units, part, threads_) * kernels::slot_padding,
-                          part_begin(units, part + 1, threads_) * kernels::slot_padding))
-      due = true;
+    if (frame_.is_due(positions, first_slot(slots_, part, threads_), first_slot(slots_, part + 1, threads_))) too_far = true;
     points_.refresh(positions, part);
   });
-  if (due) rebuild(positions);
+  return too_far;
+}
+
+bool NeighbourList::take_out_boxes(const AlignedArray& positions) {
+  if (!frame_.any_boxes(positions)) return false;
+  const AlignedArray before = frame_.boxes();
+  frame_.count_boxes(positions);
+  for_each_part(threads_, [&](int part) { points_.shift_back(before, frame_.boxes(), part); });
+  return true;
+}
+
+void NeighbourList::set_box(const Box& box) {
+  if (box == frame_.box()) return;
+  // The points of a sparse box, its gaps narrowed, do not move as the box does.
+  const bool lasts = frame_.stretch_to(box) && !points_.is_sparse();
+  if (lasts) for_each_part(threads_, [&](int part) { points_.stretch_to(box, part); });
+  prepare(box);
+  if (!lasts || points_.is_sparse()) frame_.forget();
 }
 
 void NeighbourList::set_values(const AlignedArray& per_slot, std::size_t stride) {
@@ -96,7 +135,7 @@ void NeighbourList::set_values(const AlignedArray& per_slot, std::size_t stride)
 
 void NeighbourList::rebuild(const AlignedArray& positions) {
   ++rebuilds_;
-  half_skin_.rebuilt_at(positions);
+  frame_.forget();
   points_.sort(positions);
   cut_into_blocks();
   const double expected_each = expected_per_row();
@@ -116,6 +155,7 @@ void NeighbourList::rebuild(const AlignedArray& positions) {
     std::fill_n(neighbours_[p].begin() + static_cast<std::ptrdiff_t>(end), kernels::slot_padding, 0U);
   });
   share_out();
+  frame_.made_at(positions);
 }
 
 void NeighbourList::cut_into_blocks() {
@@ -189,15 +229,25 @@ int useful_threads(std::size_t particles, int wanted) {
 std::size_t NeighbourList::neighbours() const { return std::accumulate(lengths_.begin(), lengths_.end(), std::size_t{0}); }
 
 std::size_t NeighbourList::memory() const {
-  std::size_t bytes = points_.memory() + half_skin_.reference().capacity() * sizeof(double) + blocks_.capacity() * sizeof(Block) +
-                      lengths_.capacity() * sizeof(std::uint32_t);
+  std::size_t bytes =
+      points_.memory() + frame_.memory() + blocks_.capacity() * sizeof(Block) + lengths_.capacity() * sizeof(std::uint32_t);
   for (const auto& neighbours : neighbours_) bytes += neighbours.capacity() * sizeof(std::uint32_t);
   return bytes;
 }
 
 void NeighbourList::exchange(Archive& archive) {
-  archive.field("list_made_at", half_skin_.reference());
-  if (archive.reading() && !half_skin_.reference().empty()) rebuild(AlignedArray(half_skin_.reference()));
+  AlignedArray state = frame_.state();
+  archive.field("list_made_at", state);
+  if (!archive.reading()) return;
+  const Box present = frame_.box();
+  const ListFrame::Past past = frame_.past(state, 3 * slots_);
+  frame_.forget();
+  if (past.made_at.empty()) return;
+  set_box(past.box);
+  rebuild(past.made_at);
+  frame_.take_boxes(past.boxes);
+  if (!past.boxes.empty()) for_each_part(threads_, [&](int part) { points_.shift_back({}, past.boxes, part); });
+  set_box(present);
 }
 
 }  // namespace lanescape

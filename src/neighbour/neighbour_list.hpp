@@ -9,18 +9,18 @@
 #include "core/archive.hpp"
 #include "core/box.hpp"
 #include "kernel_table.hpp"
-#include "neighbour/half_skin.hpp"
+#include "neighbour/list_frame.hpp"
 #include "neighbour/periodic_points.hpp"
 
 namespace lanescape {
 
 // A neighbour list: for each particle all others and their images within cutoff plus skin, species by species. A particle's own
 // images are omitted by default: their energy is a constant, except for sites in states.
-// The list is rebuilt once a particle is half the skin away from where it was at the last rebuild (HalfSkin), so no pair within
-// the cutoff is missed.
+// The list is rebuilt once a particle is half the skin away from where it was at the last rebuild (ListFrame), so no pair within
+// the cutoff is missed. Neither particles that are shifted by whole boxes nor small changes of the box count as displacements.
 //
-// Rows are cut into blocks of fixed size, which threads share. The list depends on nothing but the positions of the last rebuild:
-// archiving them preserves the bits.
+// Rows are cut into blocks of fixed size, which threads share. The list depends on nothing but positions and box of the last
+// rebuild: archiving them preserves the bits.
 class NeighbourList {
  public:
   // The representation of points: kernels in mixed precision need integers too.
@@ -35,6 +35,8 @@ class NeighbourList {
 
   // Call it before the list is used at new positions (layout's order, wrapped or not).
   void update(const AlignedArray& positions);
+  // Takes another box for the next update(). Rebuilds the list then only if this one does not outlast the change.
+  void set_box(const Box& box);
 
   // Copies value [stride x slot] of each particle into the fourth number of its points' records, until the next rebuild.
   void set_values(const AlignedArray& per_slot, std::size_t stride);
@@ -64,7 +66,7 @@ class NeighbourList {
   // Memory of list, points and scratch arrays [bytes].
   std::size_t memory() const;
 
-  // Archives the positions of the last rebuild; reading rebuilds the list there.
+  // Archives where the list was made; reading rebuilds it there.
   void exchange(Archive& archive);
 
  private:
@@ -75,6 +77,11 @@ class NeighbourList {
     std::size_t padded_neighbours;
   };
   void rebuild(const AlignedArray& positions);
+  // For a new list in this box.
+  void prepare(const Box& box);
+  bool moved_too_far(const AlignedArray& positions);
+  // Whether that was due to whole boxes alone, which are then taken out.
+  bool take_out_boxes(const AlignedArray& positions);
   void cut_into_blocks();
   void fill(Block& block, std::size_t part, std::size_t begin);
   std::size_t without_own_images(std::uint32_t place, std::uint32_t* neighbours, std::size_t count) const;
@@ -84,9 +91,10 @@ class NeighbourList {
   const kernels::KernelTable* table_;
   std::size_t slots_;
   std::vector<double> reaches_;  // cutoff and skin, species x species
-  HalfSkin half_skin_;
-  bool own_images_left_out_;  // and some are in reach
-  double everywhere_;         // reach that finds all points, 0 if only those near are listed
+  Members members_;
+  ListFrame frame_;
+  bool own_images_left_out_ = false;  // and some are in reach
+  double everywhere_ = 0.0;           // reach that finds all points, 0 if only those near are listed
   int threads_;
   PeriodicPoints points_;
   std::vector<Block> blocks_;

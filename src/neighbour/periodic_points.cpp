@@ -41,11 +41,18 @@ PeriodicPoints::PeriodicPoints(const Box& box, const ParticleLayout& layout, std
       grids_(margins.size()),
       images_(static_cast<std::size_t>(threads)),
       places_(static_cast<std::size_t>(threads)) {
-  for (std::size_t s = 0; s < margins.size(); ++s) {
-    grids_[s].margin = margins[s];
+  for (std::size_t s = 0; s < margins.size(); ++s) grids_[s].margin = margins[s];
+  set_box(box);
+}
+
+void PeriodicPoints::set_box(const Box& box) {
+  whole_box_ = box_ = box;
+  std::size_t particles = 0;
+  for (std::size_t s = 0; s < grids_.size(); ++s) {
     shape_grid(grids_[s], blocks_[s].count);
+    particles += blocks_[s].count;
   }
-  sparse_ = is_sparse(box, layout.size(), largest_margin());
+  sparse_ = lanescape::is_sparse(box, particles, largest_margin());
 }
 
 double PeriodicPoints::largest_margin() const {
@@ -228,6 +235,26 @@ void PeriodicPoints::sort_species(const AlignedArray& positions, std::size_t spe
   grid.rows.clear();
   for (std::size_t k = base; k < next; ++k)
     if (own[k - base]) grid.rows.push_back(static_cast<std::uint32_t>(kernels::point_width * k));
+}
+
+void PeriodicPoints::stretch_to(const Box& box, int part) {
+  for (std::size_t k = part_begin(size(), part, threads_); k < part_begin(size(), part + 1, threads_); ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (double& shift = shifts_[k][axis]; shift != 0.0) shift = std::round(shift / box_.length[axis]) * box.length[axis];
+}
+
+void PeriodicPoints::shift_back(const AlignedArray& before, const AlignedArray& boxes, int part) {
+  for (std::size_t k = part_begin(size(), part, threads_); k < part_begin(size(), part + 1, threads_); ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t of = axis * layout_slots_ + slots_[k];
+      const double was = before.empty() ? 0.0 : before[of];
+      if (was == boxes[of]) continue;
+      // From counts each time, so that a shift does not depend on how the boxes came about.
+      const double length = box_.length[axis], whole = whole_box_.length[axis],
+                   home = sparse_ ? home_shifts_[slots_[k]][axis] : 0.0;
+      const double count = std::round((shifts_[k][axis] + was * whole - home) / length);
+      shifts_[k][axis] = sparse_ ? count * length + home - boxes[of] * whole : (count - boxes[of]) * length;
+    }
 }
 
 void PeriodicPoints::refresh(const AlignedArray& positions, int part) {

@@ -29,6 +29,16 @@ class PeriodicPoints {
   // Sorts the points of these positions (layout's order, wrapped or not). O(N). Throws Error(bad_input) for a coordinate that is
   // not finite.
   void sort(const AlignedArray& positions);
+  // The next sort is in this box.
+  void set_box(const Box& box);
+  // Whether wide gaps are narrowed.
+  bool is_sparse() const { return sparse_; }
+  // Keep the points of the last sort, each a part of them, one per thread. For a box that is not sparse and takes the place of the
+  // present one with the next set_box(): points stay as many boxes away from their particles.
+  void stretch_to(const Box& box, int part);
+  // Counts of boxes, per coordinate in the layout's order, by which particles were shifted since the sort: their points stay where
+  // they are once refreshed. `before`: those of the last call, or zeros.
+  void shift_back(const AlignedArray& before, const AlignedArray& boxes, int part);
   // Updates the same points to new positions.
   void refresh(const AlignedArray& positions, int part);  // a part of them, one per thread
 

@@ -19,29 +19,39 @@ constexpr double largest_box_unit = 1e6;
 }  // namespace
 
 AllPairsSums::AllPairsSums(const PairModel& model, const Box& box, const ParticleLayout& layout, const kernels::KernelTable& table)
-    : kernels_(&table.pair_kernels(model.kernel_form().kernel)), blocks_(layout.blocks()), scratch_(layout.dimension(), 0.0) {
-  const double scale = diameter_scale(model, layout);
-  std::vector<ImageSearch> images;
+    : kernels_(&table.pair_kernels(model.kernel_form().kernel)),
+      blocks_(layout.blocks()),
+      scratch_(layout.dimension(), 0.0),
+      scale_(diameter_scale(model, layout)) {
+  if (model.form->has_diameters) given_diameters_ = layout.diameters();
+  input_.slots = layout.slots();
+  input_.block_count = blocks_.size();
+  set_box(model, box);
+}
+
+bool AllPairsSums::find_images(const PairModel& model, const Box& box) {
+  images_.clear();
+  for (std::int32_t& shells : input_.shells) shells = 0;
   for (std::size_t k = 0; k < model.sigma.size(); ++k) {
-    const double cutoff = scale * model.cutoff_of(k);
-    images.push_back(image_search(box, cutoff, model.images));
+    const double cutoff = scale_ * model.cutoff_of(k);
+    images_.push_back(image_search(box, cutoff, model.images));
     if (model.images == ImageRule::all)
       for (std::size_t axis = 0; axis < 3; ++axis)
         input_.shells[axis] = std::max(input_.shells[axis], static_cast<std::int32_t>(image_shells(box.length[axis], cutoff)));
   }
-  const bool lattice = std::find(images.begin(), images.end(), ImageSearch::lattice) != images.end();
+  return std::find(images_.begin(), images_.end(), ImageSearch::lattice) != images_.end();
+}
+
+void AllPairsSums::set_box(const PairModel& model, const Box& box) {
+  const bool lattice = find_images(model, box);
   input_.unit = kernels_->in_box_units && is_cubic(box) && box.length[0] <= largest_box_unit && !lattice ? LengthUnit::box
                                                                                                          : LengthUnit::sigma;
   const double unit = input_.unit == LengthUnit::box ? box.length[0] : 1.0;
-  pairs_ = pair_parameters(model, unit);
-  if (model.form->has_diameters) {
-    diameters_ = layout.diameters();
-    for (double& diameter : diameters_) diameter /= unit;
-  }
-  for (std::size_t k = 0; k < images.size(); ++k) pairs_[k].images = images[k];
+  put_pair_parameters(model, unit, pairs_);
+  diameters_ = given_diameters_;
+  for (double& diameter : diameters_) diameter /= unit;
+  for (std::size_t k = 0; k < images_.size(); ++k) pairs_[k].images = images_[k];
   for (std::size_t axis = 0; axis < 3; ++axis) input_.box[axis] = box.length[axis];
-  input_.slots = layout.slots();
-  input_.block_count = blocks_.size();
 }
 
 kernels::PairInput AllPairsSums::input(const AlignedArray& positions) {

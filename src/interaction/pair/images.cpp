@@ -26,14 +26,16 @@ ImageSearch image_search(const Box& box, double cutoff, ImageRule rule) {
   return one_more_at_most ? ImageSearch::two_nearest : ImageSearch::lattice;
 }
 
-void check_cutoff(const PairModel& model, const Box& box, double scale) {
+void check_reach(const Box& box, double cutoff) {
   check_edges(box.length);
-  if (model.images == ImageRule::minimum) return;
-  const double cutoff = scale * model.largest_cutoff();
   if (image_shells(box.shortest(), cutoff) > max_image_shells)
     throw_bad_input(
         fmt::format("cutoff {} reaches over more than {} images of the box, whose shortest edge is {}: at most {} is allowed",
                     cutoff, max_image_shells, box.shortest(), (max_image_shells + 0.5) * box.shortest()));
+}
+
+void check_cutoff(const PairModel& model, const Box& box, double scale) {
+  check_reach(box, model.images == ImageRule::minimum ? 0.0 : scale * model.largest_cutoff());
 }
 
 }  // namespace lanescape

@@ -13,6 +13,8 @@ kernels::ImageSearch image_search(const Box& box, double cutoff, ImageRule rule)
 double image_shells(double length, double cutoff);
 // Largest number of periodic images per direction that the rule `all` takes part in.
 inline constexpr int max_image_shells = 8;
+// Throws what check_edges() throws, and Error(bad_input) where a cutoff reaches over more images than that.
+void check_reach(const Box& box, double cutoff);
 // Throws what check_edges() throws, and Error(bad_input) where some pair's cutoff reaches further than that. `scale`: by which
 // particles' diameters lengthen cutoffs.
 void check_cutoff(const PairModel& model, const Box& box, double scale = 1.0);

@@ -15,45 +15,70 @@
 
 namespace lanescape {
 
-PairInteraction::PairInteraction(const PairModel& given, const Box& given_box, const ParticleLayout& given_layout,
+PairInteraction::PairInteraction(const PairModel& model, const Box& box, const ParticleLayout& layout,
                                  const kernels::KernelTable& table, const PairSearchOptions& options)
-    : blocks_(given_layout.blocks()), reduced_(given.length_unit(diameter_scale(given, given_layout))) {
+    : box_(box),
+      reduced_(model.length_unit(diameter_scale(model, layout))),
+      model_(model.in_unit(reduced_.unit())),
+      layout_(layout.in_unit(reduced_.unit())),
+      table_(&table),
+      options_(options) {
   const FloatEnvironment environment;
-  check_cutoff(given, given_box, diameter_scale(given, given_layout));
-  const PairModel model = given.in_unit(reduced_.unit());
-  const Box box = reduced_.box(given_box);
-  const ParticleLayout layout = given_layout.in_unit(reduced_.unit());
-  const double scale = diameter_scale(model, layout);
-  if (options.precision == Precision::mixed) check_single_precision(given, given_layout);
-  if (takes_list(model, box, scale, layout.size(), options))
-    sums_ = std::make_unique<ListSums>(model, box, layout, table, options.skin, useful_threads(layout.size(), options.threads),
-                                       options.precision);
+  check_cutoff(model, box, diameter_scale(model, layout));
+  if (options.precision == Precision::mixed) check_single_precision(model, layout);
+  sums_ = make_sums(reduced_.box(box));
+  find_constants();
+}
+
+double PairInteraction::scale() const { return diameter_scale(model_, layout_); }
+
+std::unique_ptr<PairSums> PairInteraction::make_sums(const Box& box) const {
+  if (!takes_list(model_, box, scale(), layout_.size(), options_))
+    return std::make_unique<AllPairsSums>(model_, box, layout_, *table_);
+  return std::make_unique<ListSums>(model_, box, layout_, *table_, options_.skin, useful_threads(layout_.size(), options_.threads),
+                                    options_.precision);
+}
+
+void PairInteraction::set_box(const Box& box) {
+  const FloatEnvironment environment;
+  check_reach(box, model_.images == ImageRule::minimum ? 0.0 : scale() * model_.largest_cutoff() * reduced_.unit());
+  const Box reduced = reduced_.box(box);
+  if (takes_list(model_, reduced, scale(), layout_.size(), options_) == (list() != nullptr))
+    sums_->set_box(model_, reduced);
   else
-    sums_ = std::make_unique<AllPairsSums>(model, box, layout, table);
-  if (model.images == ImageRule::all) add_images_of_self(model, box, layout.diameters());
-  if (model.truncation == Truncation::tail) add_tail(model, box);
+    sums_ = make_sums(reduced);
+  box_ = box;
+  find_constants();
 }
 
 PairInteraction::PairInteraction(PairInteraction&&) noexcept = default;
 PairInteraction& PairInteraction::operator=(PairInteraction&&) noexcept = default;
 PairInteraction::~PairInteraction() = default;
 
-void PairInteraction::add_images_of_self(const PairModel& model, const Box& box, const AlignedArray& diameters) {
-  for (std::size_t s = 0; s < blocks_.size(); ++s) {
-    PairNumbers numbers = model.numbers(model.pair(s, s));
-    if (!model.form->has_diameters) {
-      add_images_of_one(model, numbers, static_cast<double>(blocks_[s].count), box);
+void PairInteraction::find_constants() {
+  constants_ = {};
+  if (model_.images == ImageRule::all) add_images_of_self();
+  if (model_.truncation == Truncation::tail) add_tail();
+}
+
+void PairInteraction::add_images_of_self() {
+  const auto& blocks = layout_.blocks();
+  for (std::size_t s = 0; s < blocks.size(); ++s) {
+    PairNumbers numbers = model_.numbers(model_.pair(s, s));
+    if (!model_.form->has_diameters) {
+      add_images_of_one(numbers, static_cast<double>(blocks[s].count));
       continue;
     }
-    for (std::size_t slot = blocks_[s].begin; slot < blocks_[s].begin + blocks_[s].count; ++slot) {
-      numbers.sigma = diameters[slot];
-      add_images_of_one(model, numbers, 1.0, box);
+    for (std::size_t slot = blocks[s].begin; slot < blocks[s].begin + blocks[s].count; ++slot) {
+      numbers.sigma = layout_.diameters()[slot];
+      add_images_of_one(numbers, 1.0);
     }
   }
 }
 
-void PairInteraction::add_images_of_one(const PairModel& model, const PairNumbers& numbers, double count, const Box& box) {
-  const double cutoff = model.cutoff * numbers.sigma;
+void PairInteraction::add_images_of_one(const PairNumbers& numbers, double count) {
+  const Box box = reduced_.box(box_);
+  const double cutoff = model_.cutoff * numbers.sigma;
   // Half of each: the pair of a particle and its image belongs to one particle only.
   const double weight = 0.5 * count;
   const auto reach = [&](std::size_t axis) { return static_cast<int>(cutoff / box.length[axis]); };
@@ -63,7 +88,7 @@ void PairInteraction::add_images_of_one(const PairModel& model, const PairNumber
         const std::array<double, 3> d = {a * box.length[0], b * box.length[1], c * box.length[2]};
         const double r2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
         if (r2 == 0.0 || !(r2 < cutoff * cutoff)) continue;
-        const PairDerivatives at = model.derivatives(numbers, std::sqrt(r2));
+        const PairDerivatives at = model_.derivatives(numbers, std::sqrt(r2));
         constants_.energy += weight * at.u;
         const double virial = -weight * at.first;
         constants_.virial += virial;
@@ -72,11 +97,13 @@ void PairInteraction::add_images_of_one(const PairModel& model, const PairNumber
       }
 }
 
-void PairInteraction::add_tail(const PairModel& model, const Box& box) {
-  for (std::size_t a = 0; a < blocks_.size(); ++a)
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      const double pairs = static_cast<double>(blocks_[a].count) * static_cast<double>(blocks_[b].count);
-      const PairTail tail = long_range(model, a, b, box.volume());
+void PairInteraction::add_tail() {
+  const auto& blocks = layout_.blocks();
+  const double volume = reduced_.box(box_).volume();
+  for (std::size_t a = 0; a < blocks.size(); ++a)
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      const double pairs = static_cast<double>(blocks[a].count) * static_cast<double>(blocks[b].count);
+      const PairTail tail = long_range(model_, a, b, volume);
       const double virial = pairs * tail.virial;
       constants_.energy += pairs * tail.energy;
       constants_.virial += virial;

@@ -34,6 +34,12 @@ class PairInteraction {
   PairInteraction& operator=(PairInteraction&&) noexcept;
   ~PairInteraction();
 
+  // Takes another box [sigma] for what follows, at a fraction of the cost of a new object and without memory of its own. Throws
+  // what the constructor throws; nothing has then changed. Results are those of a new object: to the bit over all pairs, and to
+  // rounding over a list, which outlasts small changes of the box (ListFrame) and then has another order than a new one.
+  void set_box(const Box& box);
+  const Box& box() const { return box_; }
+
   struct Evaluation {
     double energy = 0.0;                    // [epsilon]
     double virial = 0.0;                    // sum r.f [epsilon]
@@ -46,21 +52,29 @@ class PairInteraction {
   // In double precision always.
   Evaluation energy_and_stress(const AlignedArray& positions, AlignedArray& gradient);
 
-  // What else than the positions the bits of a result depend on: where a list was made.
+  // What else than positions and box the bits of a result depend on: where a list was made.
   void exchange(Archive& archive);
   // The list, if there is one.
   const NeighbourList* list() const;
 
  private:
-  // What does not depend on the positions: own images of a particle and long-range corrections. Lengths are reduced.
-  void add_images_of_self(const PairModel& model, const Box& box, const AlignedArray& diameters);
+  double scale() const;  // of cutoffs
+  std::unique_ptr<PairSums> make_sums(const Box& reduced) const;
+  // What does not depend on the positions: own images of a particle and long-range corrections.
+  void find_constants();
+  void add_images_of_self();
   // Those of particles of one kind, whose number is `count`.
-  void add_images_of_one(const PairModel& model, const PairNumbers& numbers, double count, const Box& box);
-  void add_tail(const PairModel& model, const Box& box);
+  void add_images_of_one(const PairNumbers& numbers, double count);
+  void add_tail();
   Evaluation with_constants(const kernels::PairOutput& out) const;
 
-  std::vector<kernels::SpeciesBlock> blocks_;
+  Box box_;
   ReducedPositions reduced_;
+  // Lengths in the reduced unit.
+  PairModel model_;
+  ParticleLayout layout_;
+  const kernels::KernelTable* table_;
+  PairSearchOptions options_;
   std::unique_ptr<PairSums> sums_;
   Evaluation constants_;
 };

@@ -18,6 +18,12 @@ double diameter_scale(const PairModel& model, const ParticleLayout& layout) {
 
 std::vector<kernels::PairParameters> pair_parameters(const PairModel& model, double unit) {
   std::vector<kernels::PairParameters> pairs;
+  put_pair_parameters(model, unit, pairs);
+  return pairs;
+}
+
+void put_pair_parameters(const PairModel& model, double unit, std::vector<kernels::PairParameters>& pairs) {
+  pairs.clear();
   for (std::size_t ab = 0; ab < model.sigma.size(); ++ab) {
     const double cutoff = model.cutoff_of(ab);
     PairNumbers numbers = model.numbers(ab);
@@ -27,7 +33,6 @@ std::vector<kernels::PairParameters> pair_parameters(const PairModel& model, dou
     model.kernel_form().coefficients(numbers, correction, unit, std::span<double, kernels::pair_coefficients>(pair.coefficient));
     pairs.push_back(pair);
   }
-  return pairs;
 }
 
 namespace {

@@ -21,6 +21,8 @@ class PairSums {
   virtual void gradient_only(const AlignedArray& positions, AlignedArray& gradient) = 0;
   virtual void gradient(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) = 0;
   virtual void stress(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) = 0;
+  // Takes another box for what follows.
+  virtual void set_box(const PairModel& model, const Box& box) = 0;
   // What else than the positions the bits depend on.
   virtual void exchange(Archive&) {}
 };
@@ -34,14 +36,20 @@ class AllPairsSums final : public PairSums {
   void gradient_only(const AlignedArray& positions, AlignedArray& gradient) override;
   void gradient(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) override;
   void stress(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) override;
+  void set_box(const PairModel& model, const Box& box) override;
 
  private:
+  // Sets input_.shells; returns whether a pair needs a search over lattice shifts.
+  bool find_images(const PairModel& model, const Box& box);
   kernels::PairInput input(const AlignedArray& positions);
 
   const kernels::PairKernels* kernels_;
   std::vector<kernels::SpeciesBlock> blocks_;
   std::vector<kernels::PairParameters> pairs_;
-  AlignedArray scratch_, diameters_;  // diameters in the unit of pairs_
+  std::vector<kernels::ImageSearch> images_;  // of pairs_
+  AlignedArray scratch_;
+  AlignedArray given_diameters_, diameters_;  // the second in the unit of pairs_
+  double scale_;                              // of cutoffs
   kernels::PairInput input_{};
 };
 
@@ -55,6 +63,7 @@ class ListSums final : public PairSums {
   void gradient_only(const AlignedArray& positions, AlignedArray& gradient) override;
   void gradient(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) override;
   void stress(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) override;
+  void set_box(const PairModel&, const Box& box) override { list_.set_box(box); }
   void exchange(Archive& archive) override { list_.exchange(archive); }
 
   const NeighbourList& list() const { return list_; }
@@ -72,9 +81,9 @@ class ListSums final : public PairSums {
   std::vector<kernels::PairParameters> pairs_;
   std::vector<kernels::SinglePairParameters> single_pairs_;  // of mixed precision, else none
   NeighbourList list_;
-  AlignedArray diameters_;            // per slot, where the form has them
-  std::uint64_t diameters_at_ = 0;    // the rebuild after which the list was given them
-  std::vector<std::size_t> padding_;  // slots without a particle
+  AlignedArray diameters_;                 // per slot, where the form has them
+  std::uint64_t diameters_at_ = 0;         // the rebuild after which the list was given them
+  std::vector<std::size_t> padding_;       // slots without a particle
   std::vector<kernels::PairOutput> sums_;  // of each block
 };
 

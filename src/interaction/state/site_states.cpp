@@ -1,6 +1,7 @@
 #include "interaction/state/site_states.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/padded.hpp"
 #include "core/parallel.hpp"
@@ -17,6 +18,17 @@ Sites::Sites(const Box& box, const ParticleLayout& layout, std::vector<double> r
       reaches_squared_(reaches),
       states_{states, AlignedArray(layout.slots() * states, 0.0)} {
   for (double& reach : reaches_squared_) reach *= reach;
+}
+
+void Sites::set_box(const Box& box) {
+  box_ = box;
+  list_.set_box(box);
+}
+
+double Sites::furthest() const {
+  double furthest = 0.0;
+  for (const double squared : reaches_squared_) furthest = std::max(furthest, std::sqrt(squared));
+  return furthest;
 }
 
 void Sites::move_to(const AlignedArray& positions) {

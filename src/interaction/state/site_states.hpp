@@ -41,7 +41,9 @@ class Sites {
   Sites(const Box& box, const ParticleLayout& layout, std::vector<double> reaches, std::size_t states,
         const kernels::KernelTable& table, const Options& options);
 
+  void set_box(const Box& box);
   void move_to(const AlignedArray& positions);
+  double furthest() const;  // the longest reach
 
   const Box& box() const { return box_; }
   const ParticleLayout& layout() const { return layout_; }

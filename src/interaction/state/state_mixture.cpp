@@ -92,14 +92,10 @@ StateMixtureParts make_parts(const StateMixtureModel& given) {
 }
 
 void check_cutoff(const StateMixtureModel& model, const Box& box) {
-  check_edges(box.length);
   double reach = 0.0;
   for (std::size_t s = 0; s < model.species.size(); ++s)
     for (std::size_t t = 0; t < model.species.size(); ++t) reach = std::max(reach, model.reach(s, t));
-  if (image_shells(box.shortest(), reach) > max_image_shells)
-    throw_bad_input(
-        fmt::format("cutoff {} reaches over more than {} images of the box, whose shortest edge is {}: at most {} is allowed",
-                    reach, max_image_shells, box.shortest(), (max_image_shells + 0.5) * box.shortest()));
+  check_reach(box, reach);
 }
 
 void check_separations(const Configuration& configuration, const StateMixtureModel& model) {
@@ -136,6 +132,11 @@ StateMixture::StateMixture(StateMixtureParts parts, const Box& box, const Partic
       probability_slopes_(layout.slots() * parts_.response->states(), 0.0),
       unused_(layout.dimension(), 0.0) {
   if (parts_.one_body.mu.empty()) parts_.one_body.mu.assign(layout.blocks().size() * parts_.response->states(), 0.0);
+}
+
+void StateMixture::set_box(const Box& box) {
+  check_reach(box, sites_.furthest() * reduced_.unit());
+  sites_.set_box(reduced_.box(box));
 }
 
 double StateMixture::find_states() {

@@ -54,6 +54,9 @@ class StateMixture {
                const Options& options)
       : StateMixture(make_parts(model), box, layout, table, options) {}
 
+  // Takes another box [sigma], as PairInteraction::set_box(). Throws what check_cutoff() throws; nothing has then changed.
+  void set_box(const Box& box);
+
   struct Evaluation {
     double energy = 0.0;           // all of U [epsilon]
     double one_body_energy = 0.0;  // what of it is no pair's [epsilon]

@@ -132,6 +132,81 @@ TEST_P(NeighbourListOnEveryIsa, MissesNoPairWhileParticlesWander) {
   EXPECT_LT(list.rebuilds(), 40U);
 }
 
+// A liquid, a box of less than one reach, and one so sparse that its gaps are narrowed.
+const std::vector<std::array<double, 3>> boxes_of_every_kind = {{6.0, 5.0, 4.0}, {1.0, 7.0, 1.3}, {300.0, 250.0, 400.0}};
+
+TEST(NeighbourList, LastsAsLongForParticlesThatAreWrappedInEveryStep) {
+  for (const auto& edges : boxes_of_every_kind) {
+    Fluid fluid = random_fluid(edges, 100, 2, 19);
+    for (std::size_t k = 0; k < 30; k += 2) fluid.positions[k] = edges[k % 3] - 0.02 * static_cast<double>(k);  // near a face
+    const ParticleLayout layout(fluid.species, 2);
+    NeighbourList unwrapped = make_list(fluid, layout, 0.3, available_isas().back()),
+                  wrapped = make_list(fluid, layout, 0.3, available_isas().back(), 2);
+    std::mt19937_64 engine(5);
+    std::uniform_real_distribution<double> move(-0.03, 0.03);
+    std::size_t crossings = 0;
+    std::vector<double> before;
+    for (int step = 0; step < 60; ++step) {
+      for (double& x : fluid.positions) x += move(engine) + 0.01;
+      Fluid inside = fluid;
+      for (std::size_t k = 0; k < inside.positions.size(); ++k) inside.positions[k] = fluid.box.wrapped(k % 3, inside.positions[k]);
+      for (std::size_t k = 0; k < before.size(); ++k) crossings += std::abs(inside.positions[k] - before[k]) > 0.5 * edges[k % 3];
+      before = inside.positions;
+      unwrapped.update(layout.to_slots(fluid.positions));
+      wrapped.update(layout.to_slots(inside.positions));
+      ASSERT_EQ(of_list(wrapped, layout, cutoffs), by_force(inside, cutoffs, 2)) << "step " << step << ", edge " << edges[0];
+    }
+    EXPECT_GT(crossings, 0U);
+    EXPECT_EQ(wrapped.rebuilds(), unwrapped.rebuilds()) << "edge " << edges[0];
+    EXPECT_LT(wrapped.rebuilds(), 20U);
+  }
+}
+
+// The strain is up to 2 in 100, which uses up a fifth of the skin; particles follow the box, or stay where they are.
+TEST_P(NeighbourListOnEveryIsa, MissesNoPairWhileTheBoxChanges) {
+  for (const auto& edges : boxes_of_every_kind)
+    for (const bool follow : {true, false}) {
+      Fluid fluid = random_fluid(edges, 100, 2, 23);
+      const ParticleLayout layout(fluid.species, 2);
+      NeighbourList list = make_list(fluid, layout, 0.3, GetParam());
+      std::mt19937_64 engine(29);
+      std::uniform_real_distribution<double> move(-0.01, 0.01), stretch(-0.004, 0.004);
+      for (int step = 0; step < 60; ++step) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const double factor = 1.0 + stretch(engine);
+          fluid.box.length[axis] *= factor;
+          for (std::size_t k = axis; follow && k < fluid.positions.size(); k += 3) fluid.positions[k] *= factor;
+        }
+        for (double& x : fluid.positions) x += move(engine);
+        list.set_box(fluid.box);
+        list.update(layout.to_slots(fluid.positions));
+        ASSERT_EQ(of_list(list, layout, cutoffs), by_force(fluid, cutoffs, 2)) << "step " << step << ", edge " << edges[0];
+      }
+      if (follow && edges[0] < 100.0) {
+        EXPECT_LT(list.rebuilds(), 30U);
+      }
+    }
+}
+
+TEST(NeighbourList, IsRebuiltOnceABoxHasUsedUpTheSkin) {
+  Fluid fluid = random_fluid({6.0, 5.0, 4.0}, 50, 2, 31);
+  const ParticleLayout layout(fluid.species, 2);
+  NeighbourList list = make_list(fluid, layout, 0.3, available_isas().back());
+  const auto rebuilds_at = [&](double factor) {
+    Fluid scaled = fluid;
+    for (double& length : scaled.box.length) length *= factor;
+    for (double& x : scaled.positions) x *= factor;
+    list.set_box(scaled.box);
+    list.update(layout.to_slots(scaled.positions));
+    return list.rebuilds();
+  };
+  EXPECT_EQ(rebuilds_at(1.0), 1U);
+  EXPECT_EQ(rebuilds_at(1.0 - 0.99 * 0.3 / 1.8), 1U);
+  EXPECT_EQ(rebuilds_at(1.0 + 0.99 * 0.3 / 1.8), 1U);
+  EXPECT_EQ(rebuilds_at(1.0), 1U);
+  EXPECT_EQ(rebuilds_at(1.0 - 1.01 * 0.3 / 1.8), 2U);
+}
+
 // Two particles that approach each other: the fastest way for a pair to come into range.
 TEST(NeighbourList, IsMadeAnewBeforeTwoParticlesCanHaveComeIntoRangeUnseen) {
   Fluid fluid{{{20.0, 20.0, 20.0}}, {0, 0}, {5.0, 5.0, 5.0, 5.0 + 1.5 + 0.3 + 1e-3, 5.0, 5.0}};
