@@ -16,6 +16,10 @@ void add_pair(Evaluation& sum, std::size_t i, std::size_t j, const Vector& d, co
   const PairValue pair = value(potential, r);
   sum.energy += weight * pair.u;
   sum.magnitude += weight * pair.u_magnitude;
+  for (const std::size_t end : {i, j}) {
+    sum.energies[end] += 0.5 * weight * pair.u;
+    sum.energies_magnitude[end] += 0.5 * weight * pair.u_magnitude;
+  }
   sum.virial -= weight * r * pair.slope;
   sum.virial_magnitude += weight * r * pair.slope_magnitude;
 
@@ -45,6 +49,11 @@ void add_tail(Evaluation& sum, const Particles& particles, const PairMixture& mi
       const double weight = 2.0 * std::numbers::pi * count[a] * count[b] / volume;
       sum.energy += weight * energy;
       sum.magnitude += std::abs(weight * energy);
+      for (std::size_t i = 0; i < particles.species.size(); ++i) {
+        if (static_cast<std::size_t>(particles.species[i]) != a) continue;
+        sum.energies[i] += weight / count[a] * energy;
+        sum.energies_magnitude[i] += std::abs(weight / count[a] * energy);
+      }
       sum.virial += weight * virial;
       sum.virial_magnitude += std::abs(weight * virial);
       for (std::size_t axis = 0; axis < 3; ++axis) sum.virial_tensor[axis] += weight * virial / 3.0;
@@ -92,6 +101,8 @@ std::vector<double> species_counts(const Particles& particles, const PairMixture
 Evaluation pair_sum(const Particles& particles, const PairMixture& mixture, ImageRule images) {
   check(particles, mixture);
   Evaluation sum;
+  sum.energies.assign(particles.species.size(), 0.0);
+  sum.energies_magnitude.assign(particles.species.size(), 0.0);
   sum.gradient.assign(particles.positions.size(), 0.0);
   sum.gradient_magnitude.assign(particles.positions.size(), 0.0);
   for (std::size_t i = 0; i < particles.species.size(); ++i)

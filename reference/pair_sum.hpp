@@ -36,9 +36,11 @@ struct Evaluation {
   double energy = 0.0;                    // [epsilon], tail included where asked
   double virial = 0.0;                    // [epsilon], sum of r.f over pairs, tail included where asked
   std::array<double, 6> virial_tensor{};  // [epsilon], sum of r_a f_b: xx yy zz yz xz xy; its trace is `virial`
+  std::vector<double> energies;           // [epsilon], N: half of each pair of a particle, and its share of the tail
   std::vector<double> gradient;           // [epsilon/sigma], 3N, +dV/dr as x0 y0 z0 x1 ...
   // What rounding scales with: the same sums with every term (each power, the truncation, the tail) taken absolute.
   double magnitude = 0.0;                  // [epsilon], scale of a tolerance on `energy`
+  std::vector<double> energies_magnitude;  // [epsilon], N, scale of a tolerance on `energies`
   double virial_magnitude = 0.0;           // [epsilon], scale of a tolerance on `virial`
   std::vector<double> gradient_magnitude;  // [epsilon/sigma], 3N, scale of a tolerance on `gradient`
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "core/padded.hpp"
 #include "core/parallel.hpp"
@@ -179,6 +180,28 @@ std::size_t NeighbourList::without_own_images(std::uint32_t place, std::uint32_t
       neighbours);
 }
 
+void NeighbourList::set_exclusions(std::shared_ptr<const Exclusions> exclusions) {
+  exclusions_ = std::move(exclusions);
+  frame_.forget();
+}
+
+std::size_t NeighbourList::without_excluded(std::uint32_t place, std::uint32_t* neighbours, std::size_t count) const {
+  const double* row = points_.points() + place;
+  const auto distance_squared = [&](std::uint32_t other) {
+    const double* point = points_.points() + other;
+    const double x = point[0] - row[0], y = point[1] - row[1], z = point[2] - row[2];
+    return x * x + y * y + z * z;
+  };
+  for (const std::uint32_t partner : exclusions_->of(slot_at(place))) {
+    std::uint32_t* nearest = nullptr;
+    for (std::uint32_t* other = neighbours; other != neighbours + count; ++other)
+      if (slot_at(*other) == partner && (nearest == nullptr || distance_squared(*other) < distance_squared(*nearest)))
+        nearest = other;
+    if (nearest != nullptr) std::copy(nearest + 1, neighbours + count--, nearest);
+  }
+  return count;
+}
+
 void NeighbourList::fill(Block& block, std::size_t part, std::size_t begin) {
   AlignedVector<std::uint32_t>& neighbours = neighbours_[part];
   const AlignedVector<std::uint32_t>& rows = points_.rows(block.species);
@@ -197,6 +220,7 @@ void NeighbourList::fill(Block& block, std::size_t part, std::size_t begin) {
       for (; count + kernels::slot_padding > neighbours.size() - end; count = search())
         neighbours.resize(neighbours.size() + neighbours.size() / 16 + 4096);
       count = without_own_images(rows[k], neighbours.data() + end, count);
+      if (exclusions_) count = without_excluded(rows[k], neighbours.data() + end, count);
       // Whole vectors: what is added is never counted.
       std::fill_n(neighbours.begin() + static_cast<std::ptrdiff_t>(end + count), padded(count) - count, rows[k]);
       *length = static_cast<std::uint32_t>(count);

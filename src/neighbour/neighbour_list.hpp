@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "configuration/particle_layout.hpp"
@@ -9,6 +10,7 @@
 #include "core/archive.hpp"
 #include "core/box.hpp"
 #include "kernel_table.hpp"
+#include "neighbour/exclusions.hpp"
 #include "neighbour/list_frame.hpp"
 #include "neighbour/periodic_points.hpp"
 
@@ -37,6 +39,11 @@ class NeighbourList {
   void update(const AlignedArray& positions);
   // Takes another box for the next update(). Rebuilds the list then only if this one does not outlast the change.
   void set_box(const Box& box);
+  // Leaves these pairs out of the next lists, with no other than their nearest image when a list is made; null: none. Pairs may be
+  // as near as they like.
+  void set_exclusions(std::shared_ptr<const Exclusions> exclusions);
+  // The next update() rebuilds the list.
+  void forget() { frame_.forget(); }
 
   // Copies value [stride x slot] of each particle into the fourth number of its points' records, until the next rebuild.
   void set_values(const AlignedArray& per_slot, std::size_t stride);
@@ -85,6 +92,7 @@ class NeighbourList {
   void cut_into_blocks();
   void fill(Block& block, std::size_t part, std::size_t begin);
   std::size_t without_own_images(std::uint32_t place, std::uint32_t* neighbours, std::size_t count) const;
+  std::size_t without_excluded(std::uint32_t place, std::uint32_t* neighbours, std::size_t count) const;
   void share_out();
   double expected_per_row() const;  // offsets, padding included
 
@@ -93,6 +101,7 @@ class NeighbourList {
   std::vector<double> reaches_;  // cutoff and skin, species x species
   Members members_;
   ListFrame frame_;
+  std::shared_ptr<const Exclusions> exclusions_;
   bool own_images_left_out_ = false;  // and some are in reach
   double everywhere_ = 0.0;           // reach that finds all points, 0 if only those near are listed
   int threads_;

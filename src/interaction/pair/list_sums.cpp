@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/padded.hpp"
 #include "core/parallel.hpp"
 #include "interaction/pair/pair_parameters.hpp"
 #include "interaction/pair/pair_sums.hpp"
@@ -81,6 +82,19 @@ double ListSums::energy(const AlignedArray& positions) {
   const auto sum = precision_ == Precision::mixed ? kernels_->list_energy_mixed : kernels_->list_energy;
   for_each_block(positions, [&](std::size_t b, const kernels::PairListInput& in, double*) { sums_[b].energy = sum(in); });
   return total().energy;
+}
+
+void ListSums::energies(const AlignedArray& positions, AlignedArray& energies) {
+  const auto sum = precision_ == Precision::mixed ? kernels_->list_energy_mixed : kernels_->list_energy;
+  for_each_block(positions, [&](std::size_t, kernels::PairListInput in, double*) {
+    const std::size_t rows = in.list.row_count;
+    in.list.row_count = 1;
+    for (std::size_t k = 0; k < rows; ++k) {
+      energies[list_.slot_at(*in.list.rows)] = sum(in);
+      ++in.list.rows;
+      for (std::size_t s = 0; s < in.list.species_count; ++s) in.list.neighbours += padded(*in.list.lengths++);
+    }
+  });
 }
 
 void ListSums::gradient_only(const AlignedArray& positions, AlignedArray& gradient) {

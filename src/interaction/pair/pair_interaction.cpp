@@ -6,9 +6,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/float_environment.hpp"
+#include "interaction/pair/excluding_sums.hpp"
+#include "interaction/pair/nearest_rows.hpp"
 #include "interaction/pair/pair_parameters.hpp"
 #include "interaction/pair/pair_sums.hpp"
 #include "neighbour/neighbour_list.hpp"
@@ -33,17 +36,27 @@ PairInteraction::PairInteraction(const PairModel& model, const Box& box, const P
 double PairInteraction::scale() const { return diameter_scale(model_, layout_); }
 
 std::unique_ptr<PairSums> PairInteraction::make_sums(const Box& box) const {
-  if (!takes_list(model_, box, scale(), layout_.size(), options_))
-    return std::make_unique<AllPairsSums>(model_, box, layout_, *table_);
-  return std::make_unique<ListSums>(model_, box, layout_, *table_, options_.skin, useful_threads(layout_.size(), options_.threads),
-                                    options_.precision);
+  if (!wants_list(box)) {
+    auto all = std::make_unique<AllPairsSums>(model_, box, layout_, *table_);
+    if (!exclusions_) return all;
+    return std::make_unique<ExcludingSums>(std::move(all), model_, box, layout_, *table_, exclusions_);
+  }
+  auto sums = std::make_unique<ListSums>(model_, box, layout_, *table_, options_.skin,
+                                         useful_threads(layout_.size(), options_.threads), options_.precision);
+  sums->set_exclusions(exclusions_);
+  return sums;
+}
+
+bool PairInteraction::wants_list(const Box& box) const {
+  return takes_list(model_, box, scale(), layout_.size(), options_) ||
+         (exclusions_ && options_.search == PairSearch::automatic && fits_list(model_, box, options_.skin, scale()));
 }
 
 void PairInteraction::set_box(const Box& box) {
   const FloatEnvironment environment;
   check_reach(box, model_.images == ImageRule::minimum ? 0.0 : scale() * model_.largest_cutoff() * reduced_.unit());
   const Box reduced = reduced_.box(box);
-  if (takes_list(model_, reduced, scale(), layout_.size(), options_) == (list() != nullptr))
+  if (wants_list(reduced) == (list() != nullptr))
     sums_->set_box(model_, reduced);
   else
     sums_ = make_sums(reduced);
@@ -66,17 +79,17 @@ void PairInteraction::add_images_of_self() {
   for (std::size_t s = 0; s < blocks.size(); ++s) {
     PairNumbers numbers = model_.numbers(model_.pair(s, s));
     if (!model_.form->has_diameters) {
-      add_images_of_one(numbers, static_cast<double>(blocks[s].count));
+      add_images_of_one(numbers, static_cast<double>(blocks[s].count), constants_);
       continue;
     }
     for (std::size_t slot = blocks[s].begin; slot < blocks[s].begin + blocks[s].count; ++slot) {
       numbers.sigma = layout_.diameters()[slot];
-      add_images_of_one(numbers, 1.0);
+      add_images_of_one(numbers, 1.0, constants_);
     }
   }
 }
 
-void PairInteraction::add_images_of_one(const PairNumbers& numbers, double count) {
+void PairInteraction::add_images_of_one(const PairNumbers& numbers, double count, Evaluation& sum) const {
   const Box box = reduced_.box(box_);
   const double cutoff = model_.cutoff * numbers.sigma;
   // Half of each: the pair of a particle and its image belongs to one particle only.
@@ -89,11 +102,11 @@ void PairInteraction::add_images_of_one(const PairNumbers& numbers, double count
         const double r2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
         if (r2 == 0.0 || !(r2 < cutoff * cutoff)) continue;
         const PairDerivatives at = model_.derivatives(numbers, std::sqrt(r2));
-        constants_.energy += weight * at.u;
+        sum.energy += weight * at.u;
         const double virial = -weight * at.first;
-        constants_.virial += virial;
+        sum.virial += virial;
         constexpr std::size_t voigt[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
-        for (std::size_t k = 0; k < 6; ++k) constants_.virial_tensor[k] += virial * d[voigt[k][0]] * d[voigt[k][1]] / r2;
+        for (std::size_t k = 0; k < 6; ++k) sum.virial_tensor[k] += virial * d[voigt[k][0]] * d[voigt[k][1]] / r2;
       }
 }
 
@@ -148,6 +161,13 @@ PairInteraction::Evaluation PairInteraction::energy_and_stress(const AlignedArra
 }
 
 void PairInteraction::exchange(Archive& archive) { sums_->exchange(archive); }
+
+void PairInteraction::set_exclusions(std::span<const std::array<std::size_t, 2>> pairs) {
+  const FloatEnvironment environment;
+  exclusions_ = pairs.empty() ? nullptr : std::make_shared<const Exclusions>(pairs, layout_);
+  spare_.reset();
+  sums_ = make_sums(reduced_.box(box_));
+}
 
 const NeighbourList* PairInteraction::list() const {
   const auto* sums = dynamic_cast<const ListSums*>(sums_.get());

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "configuration/pair_model.hpp"
@@ -9,6 +11,7 @@
 #include "core/box.hpp"
 #include "interaction/pair/pair_interaction.hpp"
 #include "kernel_table.hpp"
+#include "neighbour/exclusions.hpp"
 #include "neighbour/neighbour_list.hpp"
 
 namespace lanescape {
@@ -66,7 +69,12 @@ class ListSums final : public PairSums {
   void set_box(const PairModel&, const Box& box) override { list_.set_box(box); }
   void exchange(Archive& archive) override { list_.exchange(archive); }
 
+  // Per slot, half of each of its pairs. Writes to every slot that has a particle.
+  void energies(const AlignedArray& positions, AlignedArray& energies);
+  void set_exclusions(std::shared_ptr<const Exclusions> exclusions) { list_.set_exclusions(std::move(exclusions)); }
+
   const NeighbourList& list() const { return list_; }
+  NeighbourList& list() { return list_; }
 
  private:
   // evaluate(input of a block's rows, records for their gradients, sums of the block) for every block.
