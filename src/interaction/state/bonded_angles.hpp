@@ -21,6 +21,7 @@ class BondedAngles final : public StatePotential {
   BondedAngles(std::vector<Angle> angles, std::vector<Spring> of_state)
       : angles_(std::move(angles)), springs_(std::move(of_state)) {}
 
+  double factors() const override { return 1.0; }
   void add(Sites& sites, StateSums& sums) override;
 
  private:

@@ -141,6 +141,9 @@ class StatePotential {
  public:
   virtual ~StatePotential() = default;
   virtual std::vector<double> reaches() const { return {}; }  // as OrderParameter's
+  // How many sites' probabilities each term has as factors: a pair has two. Each of them has an equal share of the term's energy
+  // (StateMixture::energies()).
+  virtual double factors() const { return 2.0; }
   // Adds energy, gradient and virial at the probabilities sites.site_states(), and dU/dp. Called in every step, with output or
   // without.
   virtual void add(Sites& sites, StateSums& sums) = 0;

@@ -178,18 +178,43 @@ void StateMixture::add_multipliers_of_potentials() {
   });
 }
 
-StateMixture::Evaluation StateMixture::evaluate(const AlignedArray& positions, AlignedArray& gradient, StateSums::Wanted wanted) {
-  const FloatEnvironment environment;
-  const bool by_order = parts_.order_parameter && sites_.states() > 1, forces = wanted != StateSums::Wanted::energy;
+double StateMixture::move_to(const AlignedArray& positions) {
   sites_.move_to(reduced_.of(positions));
-  if (by_order) parts_.order_parameter->evaluate(sites_, values_);
+  if (by_order()) parts_.order_parameter->evaluate(sites_, values_);
   const double one_body_energy = find_states();
   sites_.put_states();
+  return one_body_energy;
+}
+
+// A term is linear in the probabilities of each of its sites: sum_a p_a dU/dp_a of a site is the energy of all its terms.
+void StateMixture::energies(const AlignedArray& positions, AlignedArray& energies) {
+  const FloatEnvironment environment;
+  move_to(positions);
+  std::fill(energies.begin(), energies.end(), 0.0);
+  const std::size_t states = sites_.states();
+  const AlignedArray& p = sites_.site_states().p;
+  for (const auto& potential : parts_.potentials) {
+    std::fill(slopes_.begin(), slopes_.end(), 0.0);
+    StateSums sums{StateSums::Wanted::gradient, unused_, slopes_};
+    potential->add(sites_, sums);
+    for (std::size_t k = 0; k < p.size(); ++k) energies[k / states] += p[k] * slopes_[k] / potential->factors();
+  }
+  const auto& blocks = sites_.layout().blocks();
+  for (std::size_t s = 0; s < blocks.size(); ++s)
+    for (std::size_t k = states * blocks[s].begin; k < states * (blocks[s].begin + blocks[s].count); ++k)
+      energies[k / states] += parts_.one_body.mu[s * states + k % states] * p[k] +
+                              (p[k] > 0.0 ? parts_.one_body.entropy_temperature * p[k] * std::log(p[k]) : 0.0);
+}
+
+StateMixture::Evaluation StateMixture::evaluate(const AlignedArray& positions, AlignedArray& gradient, StateSums::Wanted wanted) {
+  const FloatEnvironment environment;
+  const bool forces = wanted != StateSums::Wanted::energy;
+  const double one_body_energy = move_to(positions);
   std::fill(gradient.begin(), gradient.end(), 0.0);
   std::fill(slopes_.begin(), slopes_.end(), 0.0);
   StateSums sums{wanted, gradient, slopes_};
   for (const auto& potential : parts_.potentials) potential->add(sites_, sums);
-  if (by_order && forces) {
+  if (by_order() && forces) {
     add_multipliers_of_potentials();
     parts_.order_parameter->add_gradient(sites_, multipliers_, sums);
   }

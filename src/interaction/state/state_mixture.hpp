@@ -67,6 +67,10 @@ class StateMixture {
   Evaluation energy_and_gradient(const AlignedArray& positions, AlignedArray& gradient);
   Evaluation energy_and_stress(const AlignedArray& positions, AlignedArray& gradient);
 
+  // Of each slot: its one-body terms, half of each of its pairs at the present probabilities, and all of an angle in whose middle
+  // it is [epsilon]; zero for padding. Their sum is the energy up to rounding. Costs what a gradient does.
+  void energies(const AlignedArray& positions, AlignedArray& energies);
+
   // Of the last evaluation.
   const SiteStates& states() const { return sites_.site_states(); }
   const AlignedArray& order_parameters() const { return values_; }  // per slot
@@ -76,6 +80,9 @@ class StateMixture {
 
  private:
   Evaluation evaluate(const AlignedArray& positions, AlignedArray& gradient, StateSums::Wanted wanted);
+  // Moves sites, finds and stores their states; gives the one-body energy.
+  double move_to(const AlignedArray& positions);
+  bool by_order() const { return parts_.order_parameter && sites_.states() > 1; }
   // States, the one-body energy, and what it does to the multipliers.
   double find_states();
   void add_multipliers_of_potentials();
