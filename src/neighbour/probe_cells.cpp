@@ -125,14 +125,16 @@ void ProbeCells::insert_image(const Image& image) {
   for (std::size_t cell = place.cell + 1; cell <= shape_.cells[2]; ++cell) ++first[cell];
 }
 
-bool ProbeCells::remove(const Point& point) {
+bool ProbeCells::remove(const Point& point, std::optional<double> diameter) {
   std::size_t removed = 0;
   for_each_image(point, [&](const Point& image) {
     const Place place = place_of(image);
     std::uint32_t* first = first_.data() + place.column * (shape_.cells[2] + 1);
     std::uint32_t at = first[place.cell];
     const std::uint32_t cell_end = first[place.cell + 1], end = first[shape_.cells[2]];
-    while (at < cell_end && Point{columns_[0][at], columns_[1][at], columns_[2][at]} != image) ++at;
+    while (at < cell_end &&
+           (Point{columns_[0][at], columns_[1][at], columns_[2][at]} != image || (diameter && columns_[3][at] != *diameter)))
+      ++at;
     if (at == cell_end) return;
     for (auto& column : columns_) std::move(column.begin() + at + 1, column.begin() + end, column.begin() + at);
     for (std::size_t cell = place.cell + 1; cell <= shape_.cells[2]; ++cell) --first[cell];
@@ -144,13 +146,17 @@ bool ProbeCells::remove(const Point& point) {
 
 kernels::ProbeSpecies ProbeCells::view() const {
   kernels::ProbeSpecies view{};
+  put_points(view);
+  return view;
+}
+
+void ProbeCells::put_points(kernels::ProbeSpecies& view) const {
   static_cast<kernels::GridShape&>(view) = shape_;
   view.first = first_.data();
   view.x = columns_[0].data();
   view.y = columns_[1].data();
   view.z = columns_[2].data();
   view.diameters = columns_[3].data();
-  return view;
 }
 
 }  // namespace lanescape

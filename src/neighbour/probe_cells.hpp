@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/aligned_array.hpp"
@@ -24,12 +25,13 @@ class ProbeCells {
   // `diameters`: of each, or none [sigma].
   void assign(const std::vector<Point>& points, const std::vector<double>& diameters = {});
   void insert(const Point& point, double diameter = 0.0);
-  // Removes a point; false if none has these coordinates to the bit.
-  bool remove(const Point& point);
+  // Removes a point; false if none has these coordinates to the bit, and this diameter if one is given.
+  bool remove(const Point& point, std::optional<double> diameter = {});
 
   std::size_t size() const { return size_; }  // points in the box
   // The view for kernels; the caller sets the pair. Valid until the next change.
   kernels::ProbeSpecies view() const;
+  void put_points(kernels::ProbeSpecies& view) const;  // leaves its pair
 
  private:
   struct Image {

@@ -10,12 +10,15 @@
 #include "core/float_environment.hpp"
 #include "interaction/pair/pair_interaction.hpp"
 #include "interaction/pair/pair_parameters.hpp"
-#include "interaction/reduced_positions.hpp"
 
 namespace lanescape {
 namespace {
 
-constexpr double largest_edge = 1e7;  // [ProbeField::length_unit()]
+double largest_diameter(const PairModel& model, const Configuration& fluid, double diameter) {
+  double largest = model.form->has_diameters ? diameter : 1.0;
+  for (const double d : fluid.diameters) largest = std::max(largest, d);
+  return largest;
+}
 
 // That of a particle's own images and its own long-range correction.
 double energy_alone(const PairModel& model, const Box& box, int species, double diameter, const kernels::KernelTable& table) {
@@ -29,28 +32,21 @@ double energy_alone(const PairModel& model, const Box& box, int species, double 
 
 ProbeField::ProbeField(const PairModel& model, const Configuration& fluid, int species, const kernels::KernelTable& table,
                        double diameter)
-    : table_(&table), model_(model), kernels_(&table.pair_kernels(model.kernel_form().kernel)), box_(fluid.box), species_(species) {
+    : table_(&table),
+      model_(model),
+      kernels_(&table.pair_kernels(model.kernel_form().kernel)),
+      species_(species),
+      box_(fluid.box, model.length_unit(largest_diameter(model, fluid, diameter))),
+      diameter_(diameter / box_.unit()) {
   const FloatEnvironment environment;
-  double scale = model.form->has_diameters ? diameter : 1.0;
-  for (const double d : fluid.diameters) scale = std::max(scale, d);
-  unit_ = model.length_unit(scale);
-  diameter_ = diameter / unit_;
-  check_cutoff(model, box_, scale);
+  const double scale = largest_diameter(model, fluid, diameter);
+  check_cutoff(model, fluid.box, scale);
   const std::size_t count = model.species.size();
   if (species < 0 || static_cast<std::size_t>(species) >= count)
     throw_bad_input(fmt::format("species {} of an inserted particle is not allowed: the model has {}", species, count));
-  for (const double edge : box_.length)
-    if (edge > largest_edge * unit_)
-      throw_bad_input(fmt::format(
-          "insertion is not allowed in a box of edge {}: at most {} are, or coordinates in the box lose too many digits", edge,
-          largest_edge * unit_));
-  put_fluid(model.in_unit(unit_), fluid, model.form->has_diameters ? scale / unit_ : 1.0);
-  if (model.images == ImageRule::minimum && 2.0 * largest_cutoff_ > box_.shortest())
-    throw_bad_input(
-        fmt::format("insertion under the minimum-image rule is not allowed in a box of shortest edge {}: at least twice the "
-                    "cutoff, {}, is needed",
-                    box_.shortest(), 2.0 * largest_cutoff_));
-  own_ = energy_alone(model, box_, species, diameter, table);
+  put_fluid(model.in_unit(box_.unit()), fluid, model.form->has_diameters ? scale / box_.unit() : 1.0);
+  box_.check(model, largest_cutoff_, "insertion");
+  own_ = energy_alone(model, fluid.box, species, diameter, table);
   refresh();
 }
 
@@ -61,19 +57,19 @@ void ProbeField::put_fluid(const PairModel& model, const Configuration& fluid, d
   std::vector<std::vector<double>> diameters(count);
   for (std::size_t i = 0; i < fluid.size(); ++i) {
     const auto s = static_cast<std::size_t>(fluid.species[i]);
-    points[s].push_back(home(fluid.position(i)));
-    if (!fluid.diameters.empty()) diameters[s].push_back(fluid.diameters[i] / unit_);
+    points[s].push_back(box_.home(fluid.position(i)));
+    if (!fluid.diameters.empty()) diameters[s].push_back(fluid.diameters[i] / box_.unit());
   }
   for (std::size_t b = 0; b < count; ++b) {
     const std::size_t ab = model.pair(static_cast<std::size_t>(species_), b);
     const double cutoff = scale * model.cutoff_of(ab);
-    largest_cutoff_ = std::max(largest_cutoff_, cutoff * unit_);
+    largest_cutoff_ = std::max(largest_cutoff_, cutoff * box_.unit());
     largest_sigma_ = std::max(largest_sigma_, model_.sigma[ab]);
     pairs_.push_back(all[ab]);
-    cells_.emplace_back(ReducedPositions(unit_).box(box_), cutoff, points[b].size());
+    cells_.emplace_back(box_.reduced(), cutoff, points[b].size());
     cells_.back().assign(points[b], diameters[b]);
     tail_.push_back(model_.truncation == Truncation::tail
-                        ? 2.0 * long_range(model_, static_cast<std::size_t>(species_), b, box_.volume()).energy
+                        ? 2.0 * long_range(model_, static_cast<std::size_t>(species_), b, box_.box().volume()).energy
                         : 0.0);
     reaches_.push_back(scale * std::sqrt(all[ab].cutoff_squared));
   }
@@ -90,25 +86,12 @@ void ProbeField::refresh() {
   }
 }
 
-ProbeField::Point ProbeField::home(const Point& position) const {
-  Point home{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    double x = position[axis];
-    if (!(x >= 0.0 && x < box_.length[axis])) {
-      check_finite({&x, 1});
-      x = box_.wrapped(axis, x);
-    }
-    home[axis] = x / unit_;
-  }
-  return home;
-}
-
 ProbeField::Sample ProbeField::sample(const Point& position) const {
   const FloatEnvironment environment;
   kernels::ProbeOutput out;
-  const Point at = home(position);
+  const Point at = box_.home(position);
   kernels_->probe({views_.data(), views_.size(), diameter_}, at.data(), out);
-  return {out.energy + constant_, {out.gradient[0] / unit_, out.gradient[1] / unit_, out.gradient[2] / unit_}};
+  return {out.energy + constant_, {out.gradient[0] / box_.unit(), out.gradient[1] / box_.unit(), out.gradient[2] / box_.unit()}};
 }
 
 double ProbeField::energy(const Point& position) const {
@@ -122,7 +105,7 @@ void ProbeField::energies(std::span<const double> positions, std::span<double> o
   std::vector<double> wrapped;
   wrapped.reserve(positions.size());
   for (std::size_t k = 0; k < out.size(); ++k) {
-    const Point at = home(point_at(positions.data(), k));
+    const Point at = box_.home(point_at(positions.data(), k));
     wrapped.insert(wrapped.end(), at.begin(), at.end());
   }
   kernels_->probe_energies({views_.data(), views_.size(), diameter_}, wrapped.data(), out.size(), out.data());
@@ -140,10 +123,10 @@ std::vector<double> ProbeField::clearances(double energy) const {
 std::size_t ProbeField::first_clear(std::span<const double> clearances, std::span<const double> positions) const {
   const FloatEnvironment environment;
   std::vector<double> reduced;
-  if (unit_ != 1.0) {
+  if (box_.unit() != 1.0) {
     reduced.assign(clearances.begin(), clearances.end());
     reduced.insert(reduced.end(), positions.begin(), positions.end());
-    for (double& length : reduced) length /= unit_;
+    for (double& length : reduced) length /= box_.unit();
     clearances = {reduced.data(), clearances.size()};
     positions = {reduced.data() + clearances.size(), positions.size()};
   }
@@ -152,12 +135,12 @@ std::size_t ProbeField::first_clear(std::span<const double> clearances, std::spa
 }
 
 void ProbeField::insert(const Point& position, int species) {
-  cells_[static_cast<std::size_t>(species)].insert(home(position), diameter_);
+  cells_[static_cast<std::size_t>(species)].insert(box_.home(position), diameter_);
   refresh();
 }
 
 bool ProbeField::remove(const Point& position, int species) {
-  const bool removed = cells_[static_cast<std::size_t>(species)].remove(home(position));
+  const bool removed = cells_[static_cast<std::size_t>(species)].remove(box_.home(position));
   refresh();
   return removed;
 }

@@ -7,6 +7,7 @@
 
 #include "configuration/configuration.hpp"
 #include "configuration/pair_model.hpp"
+#include "interaction/pair/probe_box.hpp"
 #include "kernel_table.hpp"
 #include "neighbour/probe_cells.hpp"
 
@@ -46,8 +47,8 @@ class ProbeField {
   bool remove(const Point& position, int species);
 
   // The model's unit of length [sigma].
-  double length_unit() const { return unit_; }
-  const Box& box() const { return box_; }
+  double length_unit() const { return box_.unit(); }
+  const Box& box() const { return box_.box(); }
   std::size_t size() const;  // particles of the fluid
   int species() const { return species_; }
   double largest_cutoff() const { return largest_cutoff_; }  // of the probe's pairs [sigma]
@@ -57,19 +58,17 @@ class ProbeField {
 
  private:
   void put_fluid(const PairModel& model, const Configuration& fluid, double scale);
-  // Cells and pair, as the kernels take them; made anew at every change.
+  // Cells and pair, as the kernels take them; O(species) at every change.
   void refresh();
-  // In the box and in unit_. Throws Error(bad_input) for a coordinate that is not finite.
-  Point home(const Point& position) const;
 
   const kernels::KernelTable* table_;
   PairModel model_;
   const kernels::PairKernels* kernels_;
-  Box box_;
   int species_;
   double largest_cutoff_ = 0.0, largest_sigma_ = 0.0;
-  // From here on lengths are in unit_.
-  double unit_, diameter_;
+  ProbeBox box_;
+  // From here on lengths are in its unit.
+  double diameter_;
   std::vector<ProbeCells> cells_;  // by species
   std::vector<kernels::PairParameters> pairs_;
   std::vector<double> reaches_;  // of pairs_

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "configuration/pair_model.hpp"
+#include "core/box.hpp"
+
+namespace lanescape {
+
+// A box in which single particles are looked at one at a time, and the unit of length for it.
+class ProbeBox {
+ public:
+  ProbeBox(const Box& box, double unit) : box_(box), unit_(unit) {}
+
+  const Box& box() const { return box_; }  // [sigma]
+  double unit() const { return unit_; }    // [sigma]
+  Box reduced() const { return {{box_.length[0] / unit_, box_.length[1] / unit_, box_.length[2] / unit_}}; }
+  // The place in the box, in this unit. Throws Error(bad_input) for a coordinate that is not finite.
+  Point home(const Point& position) const;
+  // Throws Error(bad_input) for edges above 10^7 units, and for the minimum-image rule in a box whose shortest edge is below twice
+  // the cutoff, where a particle would feel a jump. `work`: what is not allowed there.
+  void check(const PairModel& model, double cutoff, const char* work) const;
+
+ private:
+  Box box_;
+  double unit_;
+};
+
+}  // namespace lanescape
