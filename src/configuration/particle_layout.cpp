@@ -17,14 +17,15 @@ std::vector<std::size_t> as_given(std::size_t n) {
   return particles;
 }
 
-// Sorted by columns of the box along z, about three particles wide, and by z within each column.
-std::vector<std::size_t> by_place(const Configuration& configuration) {
-  const std::size_t n = configuration.size();
-  const double width = std::cbrt(3.0 * configuration.box.volume() / static_cast<double>(n));
+}  // namespace
+
+std::vector<std::size_t> order_in_space(std::span<const double> positions, const Box& box) {
+  const std::size_t n = positions.size() / 3;
+  const double width = std::cbrt(3.0 * box.volume() / static_cast<double>(n));
   std::vector<std::tuple<double, double, double, std::size_t>> keys;
   keys.reserve(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const auto wrapped = [&](std::size_t axis) { return configuration.box.wrapped(axis, configuration.positions[3 * i + axis]); };
+    const auto wrapped = [&](std::size_t axis) { return box.wrapped(axis, positions[3 * i + axis]); };
     keys.emplace_back(std::floor(wrapped(0) / width), std::floor(wrapped(1) / width), wrapped(2), i);
   }
   std::sort(keys.begin(), keys.end());
@@ -34,18 +35,29 @@ std::vector<std::size_t> by_place(const Configuration& configuration) {
   return particles;
 }
 
-}  // namespace
-
 ParticleLayout::ParticleLayout(const std::vector<int>& species, std::size_t species_count) {
   assign(species, species_count, as_given(species.size()));
 }
 
 ParticleLayout ParticleLayout::in_space_order(const Configuration& configuration, std::size_t species_count) {
   const std::size_t n = configuration.size();
+  return in_order(configuration, species_count,
+                  n < sorted_from ? as_given(n) : order_in_space(configuration.positions, configuration.box));
+}
+
+ParticleLayout ParticleLayout::in_order(const Configuration& configuration, std::size_t species_count,
+                                        std::span<const std::size_t> particles) {
   ParticleLayout layout;
-  layout.assign(configuration.species, species_count, n < sorted_from ? as_given(n) : by_place(configuration));
+  layout.assign(configuration.species, species_count, particles);
   if (!configuration.diameters.empty()) layout.diameters_ = layout.per_slot(configuration.diameters, 0.0);
   return layout;
+}
+
+std::vector<std::size_t> ParticleLayout::order() const {
+  std::vector<std::size_t> in_slot(slots_, size());
+  for (std::size_t i = 0; i < size(); ++i) in_slot[slot_of_[i]] = i;
+  std::erase(in_slot, size());
+  return in_slot;
 }
 
 ParticleLayout ParticleLayout::in_users_order(const Configuration& configuration, std::size_t species_count) {
@@ -76,16 +88,24 @@ ParticleLayout ParticleLayout::in_unit(double unit) const {
 
 AlignedArray ParticleLayout::to_slots(std::span<const double> interleaved) const {
   AlignedArray coordinates(dimension(), 0.0);
+  put_slots(interleaved, coordinates);
+  return coordinates;
+}
+
+void ParticleLayout::put_slots(std::span<const double> interleaved, AlignedArray& coordinates) const {
   for (std::size_t i = 0; i < size(); ++i)
     for (std::size_t axis = 0; axis < 3; ++axis) coordinates[axis * slots_ + slot_of_[i]] = interleaved[3 * i + axis];
-  return coordinates;
 }
 
 std::vector<double> ParticleLayout::to_user(const AlignedArray& coordinates) const {
   std::vector<double> interleaved(3 * size());
+  put_user(coordinates, interleaved);
+  return interleaved;
+}
+
+void ParticleLayout::put_user(const AlignedArray& coordinates, std::span<double> interleaved) const {
   for (std::size_t i = 0; i < size(); ++i)
     for (std::size_t axis = 0; axis < 3; ++axis) interleaved[3 * i + axis] = coordinates[axis * slots_ + slot_of_[i]];
-  return interleaved;
 }
 
 AlignedArray ParticleLayout::per_slot(std::span<const double> per_particle, double padding) const {
