@@ -188,6 +188,22 @@ TEST_P(NeighbourListOnEveryIsa, MissesNoPairWhileTheBoxChanges) {
     }
 }
 
+// A pair beyond the reach of the list and a box that carries it into range.
+TEST(NeighbourList, IsMadeAnewBeforeAShrinkingBoxCanHaveBroughtAPairIntoRangeUnseen) {
+  Fluid fluid{{{3.8, 1.9, 1.6}}, {0, 0}, {0.5, 0.5, 0.5, 0.5 + 1.5 + 0.3 + 1e-3, 0.5, 0.5}};
+  const ParticleLayout layout(fluid.species, 2);
+  NeighbourList list = make_list(fluid, layout, 0.3, available_isas().back());
+  for (int step = 0; step < 100; ++step) {
+    ASSERT_EQ((list.update(layout.to_slots(fluid.positions)), of_list(list, layout, cutoffs)), by_force(fluid, cutoffs, 2))
+        << "step " << step;
+    for (double& length : fluid.box.length) length *= 0.996;
+    for (double& x : fluid.positions) x *= 0.996;
+    list.set_box(fluid.box);
+  }
+  EXPECT_GT(list.rebuilds(), 1U);
+  EXPECT_LT(list.rebuilds(), 10U);
+}
+
 TEST(NeighbourList, IsRebuiltOnceABoxHasUsedUpTheSkin) {
   Fluid fluid = random_fluid({6.0, 5.0, 4.0}, 50, 2, 31);
   const ParticleLayout layout(fluid.species, 2);
