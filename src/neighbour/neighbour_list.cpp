@@ -115,9 +115,9 @@ bool NeighbourList::moved_too_far(const AlignedArray& positions) {
 
 bool NeighbourList::take_out_boxes(const AlignedArray& positions) {
   if (!frame_.any_boxes(positions)) return false;
-  const AlignedArray before = frame_.boxes();
+  boxes_before_ = frame_.boxes();
   frame_.count_boxes(positions);
-  for_each_part(threads_, [&](int part) { points_.shift_back(before, frame_.boxes(), part); });
+  for_each_part(threads_, [&](int part) { points_.shift_back(boxes_before_, frame_.boxes(), part); });
   return true;
 }
 
@@ -253,8 +253,8 @@ int useful_threads(std::size_t particles, int wanted) {
 std::size_t NeighbourList::neighbours() const { return std::accumulate(lengths_.begin(), lengths_.end(), std::size_t{0}); }
 
 std::size_t NeighbourList::memory() const {
-  std::size_t bytes =
-      points_.memory() + frame_.memory() + blocks_.capacity() * sizeof(Block) + lengths_.capacity() * sizeof(std::uint32_t);
+  std::size_t bytes = points_.memory() + frame_.memory() + boxes_before_.capacity() * sizeof(double) +
+                      blocks_.capacity() * sizeof(Block) + lengths_.capacity() * sizeof(std::uint32_t);
   for (const auto& neighbours : neighbours_) bytes += neighbours.capacity() * sizeof(std::uint32_t);
   return bytes;
 }

@@ -101,6 +101,7 @@ class NeighbourList {
   std::vector<double> reaches_;  // cutoff and skin, species x species
   Members members_;
   ListFrame frame_;
+  AlignedArray boxes_before_;  // scratch
   std::shared_ptr<const Exclusions> exclusions_;
   bool own_images_left_out_ = false;  // and some are in reach
   double everywhere_ = 0.0;           // reach that finds all points, 0 if only those near are listed
