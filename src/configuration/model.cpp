@@ -1,6 +1,7 @@
 #include "configuration/model.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <string>
@@ -32,11 +33,11 @@ bool is_named(const PairForm& form) {
 
 }  // namespace
 
-std::string model_names() {
-  std::string names;
-  for (const NamedModel& model : named_models) names += fmt::format("{}{}", names.empty() ? "" : ", ", model.name);
+std::vector<std::string> known_models() {
+  std::vector<std::string> names;
+  for (const NamedModel& model : named_models) names.emplace_back(model.name);
   for (const PairForm& form : pair_forms())
-    if (is_named(form)) names += fmt::format(", {}", form.word);
+    if (is_named(form)) names.emplace_back(form.word);
   return names;
 }
 
@@ -45,7 +46,7 @@ AnyModel named_model(std::string_view name) {
     if (name == model.name) return model.make();
   for (const PairForm& form : pair_forms())
     if (name == form.word && is_named(form)) return one_component(form);
-  throw_bad_input(fmt::format("unknown model '{}': allowed are {}", name, model_names()));
+  throw_bad_input(fmt::format("unknown model '{}': allowed are {}", name, fmt::join(known_models(), ", ")));
 }
 
 const Mixture& mixture_of(const AnyModel& model) {

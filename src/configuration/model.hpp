@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "configuration/hard_sphere_model.hpp"
 #include "configuration/pair_model.hpp"
@@ -13,8 +14,8 @@ namespace lanescape {
 // The model behind a name or a model file.
 using AnyModel = std::variant<PairModel, HardSphereModel, StateMixtureModel>;
 
-// The names of all there are, separated by commas.
-std::string model_names();
+// The names of all there are.
+std::vector<std::string> known_models();
 // The model of a name; any other throws Error(bad_input) naming all there are.
 AnyModel named_model(std::string_view name);
 const Mixture& mixture_of(const AnyModel& model);

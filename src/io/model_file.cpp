@@ -60,6 +60,8 @@ AnyModel read_model_file(const std::filesystem::path& path) {
   return parse_model(read_text(path), path.string(), path.stem().string());
 }
 
+AnyModel read_model_text(const std::string& text, const std::string& source) { return parse_model(text, source, "mixture"); }
+
 void write_model_file(std::ostream& out, const AnyModel& model) {
   const std::string text = std::visit(
       [](const auto& m) {

@@ -59,7 +59,7 @@ struct Searches {
   PathResult one_way(std::size_t number, bool reversed) const {
     // One level of threads: many paths at once, or the evaluations of one.
     const int threads = pairs.size() == 1 ? options.threads : 1;
-    const auto search = options.method->begin({model, pairs[number], prepared[number], options, isa, threads, reversed});
+    const auto search = options.method->begin({model, pairs[number], prepared[number], options, isa, threads, reversed, {}});
     SearchMonitor monitor(progress, number, reversed ? 0.5 : 0.0, options.reverse ? 0.5 : 1.0);
     run_to_end(*search, fmt::format("path-{:04}{}.h5", number + 1, reversed ? "-reverse" : ""), checkpoint, monitor);
     return search->result();
@@ -68,26 +68,11 @@ struct Searches {
   PathResult pair(std::size_t number) const {
     PathResult forward = one_way(number, false);
     if (!options.reverse || forward.outcome == Outcome::interrupted) return forward;
-    PathResult backward = one_way(number, true);
-    if (backward.outcome == Outcome::interrupted) return backward;
-    const bool keep_backward =
-        backward.outcome == Outcome::reached && (forward.outcome != Outcome::reached || backward.length < forward.length);
-    return keep_backward ? backward : forward;
+    return shorter_way(std::move(forward), one_way(number, true));
   }
 };
 
 }  // namespace
-
-void PathRunOptions::check(const AnyModel& model) const {
-  const double unit = length_unit(model);
-  if (method->direct_step) check_positive("step", step_length(model), 1.0 * unit);
-  check_positive("avoidance step", avoidance_step_length(model), 0.1 * unit);
-  if (landscape_energy && method->is_hard) throw_bad_input("hard spheres have no landscape energy: without it only");
-  if (landscape_energy && !std::isfinite(*landscape_energy))
-    throw_bad_input(fmt::format("landscape energy {} is not allowed: it must be finite", *landscape_energy));
-  if (finder.max_steps == 0) throw_bad_input("the step limit must be at least 1");
-  if (finder.frames > 100'000) throw_bad_input(fmt::format("{} frames are not allowed: at most 100000", finder.frames));
-}
 
 std::vector<PathResult> run_paths(const AnyModel& model, const std::vector<ConfigurationPair>& pairs, const PathRunOptions& options,
                                   Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor) {
@@ -96,7 +81,8 @@ std::vector<PathResult> run_paths(const AnyModel& model, const std::vector<Confi
   check_method(*options.method, model);
 
   std::vector<PreparedPair> prepared;
-  for (std::size_t k = 0; k < pairs.size(); ++k) prepared.push_back(prepare_pair(model, pairs[k], k, options, isa));
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    prepared.push_back(prepare_pair(model, pairs[k], fmt::format("pair {}", k + 1), options, isa));
   SharedProgress progress(monitor, pairs.size());
   const Searches searches{model, pairs, prepared, options, isa, checkpoint, progress};
   std::vector<PathResult> results(pairs.size());

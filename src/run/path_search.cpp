@@ -7,6 +7,7 @@
 
 #include "configuration/model_traits.hpp"
 #include "core/error.hpp"
+#include "core/option_checks.hpp"
 #include "landscape/make_landscape.hpp"
 #include "observables/heterogeneity.hpp"
 
@@ -25,25 +26,56 @@ std::vector<double> displacements(const Configuration& first, const Configuratio
   return lengths;
 }
 
-}  // namespace
-
-PreparedPair prepare_pair(const AnyModel& model, const ConfigurationPair& pair, std::size_t number, const PathRunOptions& options,
-                          Isa isa) {
-  const std::string where = fmt::format("pair {}", number + 1);
-  check_end_points(pair, model, where);
-  const Mixture& mixture = mixture_of(model);
-  const ParticleLayout layout = ParticleLayout::in_space_order(pair.start, mixture.species.size());
+PreparedPair prepared_ends(const Mixture& mixture, const ParticleLayout& layout, const ConfigurationPair& pair, Isa isa) {
   PreparedPair prepared{layout, KinematicMetric(mixture, layout), layout.to_slots(pair.start.positions),
                         layout.to_slots(pair.finish.positions)};
   prepared.metric.to_kinematic(prepared.start);
   prepared.metric.to_kinematic(prepared.goal);
   prepared.distance = VectorAlgebra(kernel_table(isa)).distance(prepared.start, prepared.goal);
+  return prepared;
+}
+
+std::unique_ptr<SoftLandscape> model_landscape(const AnyModel& model, const Box& box, const ParticleLayout& layout, Isa isa,
+                                               int threads, Precision precision) {
+  return make_landscape(model, box, layout, isa, {.threads = threads, .skin = path_skin, .precision = precision});
+}
+
+std::unique_ptr<SoftLandscape> in_kinematic_coordinates(std::unique_ptr<SoftLandscape> landscape, const KinematicMetric& metric) {
+  if (metric.is_euclidean()) return landscape;
+  return std::make_unique<KinematicLandscape>(std::move(landscape), metric);
+}
+
+}  // namespace
+
+void PathRunOptions::check(const AnyModel& model) const {
+  const double unit = length_unit(model);
+  if (method->direct_step) check_positive("step", step_length(model), 1.0 * unit);
+  check_positive("avoidance step", avoidance_step_length(model), 0.1 * unit);
+  if (landscape_energy && method->is_hard) throw_bad_input("hard spheres have no landscape energy: without it only");
+  if (landscape_energy && !std::isfinite(*landscape_energy))
+    throw_bad_input(fmt::format("landscape energy {} is not allowed: it must be finite", *landscape_energy));
+  if (finder.max_steps == 0) throw_bad_input("the step limit must be at least 1");
+  if (finder.frames > 100'000) throw_bad_input(fmt::format("{} frames are not allowed: at most 100000", finder.frames));
+}
+
+PreparedPair prepare_pair(const AnyModel& model, const ConfigurationPair& pair, const std::string& where,
+                          const PathRunOptions& options, Isa isa) {
+  check_end_points(pair, model, where);
+  const Mixture& mixture = mixture_of(model);
+  const ParticleLayout layout = ParticleLayout::in_space_order(pair.start, mixture.species.size());
   if (is_hard(model)) {
-    if (!prepared.metric.is_euclidean())
+    if (!mixture.has_equal_masses())
       throw_bad_input(fmt::format("{}: hard spheres of unequal masses have no path yet: equal masses are needed", where));
-    return prepared;
+    return prepared_ends(mixture, layout, pair, isa);
   }
-  const auto landscape = path_landscape({model, pair, prepared, options, isa, options.threads});
+  const auto make = [&] { return model_landscape(model, pair.start.box, layout, isa, options.threads, options.precision); };
+  return prepare_pair_on(make, mixture, layout, pair, where, options, isa);
+}
+
+PreparedPair prepare_pair_on(const SoftLandscapeMaker& make, const Mixture& mixture, const ParticleLayout& layout,
+                             const ConfigurationPair& pair, const std::string& where, const PathRunOptions& options, Isa isa) {
+  PreparedPair prepared = prepared_ends(mixture, layout, pair, isa);
+  const auto landscape = in_kinematic_coordinates(make(), prepared.metric);
   const double highest_end = std::max(landscape->energy(prepared.start), landscape->energy(prepared.goal));
   prepared.landscape_energy = options.landscape_energy.value_or(highest_end);
   if (!(highest_end <= prepared.landscape_energy))
@@ -59,11 +91,17 @@ FinderOptions SearchSetup::finder_options() const {
 }
 
 std::unique_ptr<SoftLandscape> path_landscape(const SearchSetup& setup) {
-  std::unique_ptr<SoftLandscape> landscape =
-      make_landscape(setup.model, setup.pair.start.box, setup.prepared.layout, setup.isa,
-                     {.threads = setup.threads, .skin = path_skin, .precision = setup.options.precision});
-  if (setup.prepared.metric.is_euclidean()) return landscape;
-  return std::make_unique<KinematicLandscape>(std::move(landscape), setup.prepared.metric);
+  return in_kinematic_coordinates(setup.landscape ? setup.landscape()
+                                                  : model_landscape(setup.model, setup.pair.start.box, setup.prepared.layout,
+                                                                    setup.isa, setup.threads, setup.options.precision),
+                                  setup.prepared.metric);
+}
+
+PathResult shorter_way(PathResult forward, PathResult backward) {
+  if (backward.outcome == Outcome::interrupted) return backward;
+  const bool keep_backward =
+      backward.outcome == Outcome::reached && (forward.outcome != Outcome::reached || backward.length < forward.length);
+  return keep_backward ? backward : forward;
 }
 
 PathSearch::PathSearch(const SearchSetup& setup) : setup_(setup), chunk_(steps_per_chunk(setup.prepared.layout.size())) {}

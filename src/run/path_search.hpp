@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -24,10 +26,16 @@ struct PreparedPair {
   double distance = 0.0, landscape_energy = 0.0;
 };
 
+// Makes the landscape of soft particles on which a path runs, in positions.
+using SoftLandscapeMaker = std::function<std::unique_ptr<SoftLandscape>()>;
+
 // Throws Error(bad_input) for a pair that check_end_points() refuses, for hard spheres of unequal masses, and for an end above a
-// given landscape energy. Messages start with "pair <number + 1>".
-PreparedPair prepare_pair(const AnyModel& model, const ConfigurationPair& pair, std::size_t number, const PathRunOptions& options,
-                          Isa isa);
+// given landscape energy. Messages start with `where`.
+PreparedPair prepare_pair(const AnyModel& model, const ConfigurationPair& pair, const std::string& where,
+                          const PathRunOptions& options, Isa isa);
+// The same on any landscape of soft particles with these masses; the pair is not checked.
+PreparedPair prepare_pair_on(const SoftLandscapeMaker& make, const Mixture& mixture, const ParticleLayout& layout,
+                             const ConfigurationPair& pair, const std::string& where, const PathRunOptions& options, Isa isa);
 
 // What the search for one path starts from.
 struct SearchSetup {
@@ -38,6 +46,7 @@ struct SearchSetup {
   Isa isa;
   int threads = 1;  // of one evaluation
   bool reversed = false;
+  SoftLandscapeMaker landscape{};  // in place of the model's
 
   const AlignedArray& start() const { return reversed ? prepared.goal : prepared.start; }
   const AlignedArray& goal() const { return reversed ? prepared.start : prepared.goal; }
@@ -46,6 +55,9 @@ struct SearchSetup {
 
 // The landscape of soft particles on which a path runs, in kinematic coordinates.
 std::unique_ptr<SoftLandscape> path_landscape(const SearchSetup& setup);
+
+// Of the results from both ends of a pair, the one to keep.
+PathResult shorter_way(PathResult forward, PathResult backward);
 
 // The search for one path by some method.
 class PathSearch : public ResumableWork {

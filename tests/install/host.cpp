@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <exception>
 #include <lanescape/lanescape.hpp>
 #include <string>
 #include <vector>
@@ -14,15 +13,12 @@ namespace {
 bool close(double a, double b) { return std::abs(a - b) <= 1e-13 * std::abs(b); }
 
 bool gives_the_pair_potential(const std::string& isa) {
-  lanescape::LennardJonesPotential::Options options;
-  options.model = "lennard-jones";
-  options.truncation = "plain";
-  options.isa = isa;
+  const lanescape::Model model = lanescape::Model::named("lennard-jones", {.truncation = "plain"});
   const std::vector<int> species = {0, 0};
   const std::vector<double> positions = {9.5, 1.0, 2.0, 1.0, 1.0, 2.0};  // across a face of the box
   std::vector<double> forces(positions.size());
   double virial = 0.0;
-  lanescape::LennardJonesPotential potential(species, {10.0, 10.0, 10.0}, options);
+  lanescape::Potential potential(model, species, {10.0, 10.0, 10.0}, {.instruction_set = isa});
   const double energy = potential.energy_and_forces(positions, forces, &virial);
 
   const double sixth = std::pow(1.5, -6.0);
@@ -42,12 +38,11 @@ bool finds_the_pair() {
 }
 
 bool refuses_what_it_does_not_know() {
-  lanescape::LennardJonesPotential::Options options;
-  options.isa = "abacus";
   try {
-    lanescape::LennardJonesPotential potential(std::vector<int>{0}, {10.0, 10.0, 10.0}, options);
-  } catch (const std::exception& error) {
-    return std::string(error.what()).find("abacus") != std::string::npos;
+    lanescape::Potential potential(lanescape::Model::named("lennard-jones"), std::vector<int>{0}, {10.0, 10.0, 10.0},
+                                   {.instruction_set = "abacus"});
+  } catch (const lanescape::Error& error) {
+    return error.code() == lanescape::ErrorCode::bad_input && std::string(error.what()).find("abacus") != std::string::npos;
   }
   return false;
 }

@@ -76,10 +76,6 @@ RunKinds EndPointSetup::kinds(bool has_pair_files) const {
           kind_if(has_pair_files || !start_file_.empty(), sphere_files, "with a file", "without a file")};
 }
 
-double EndPointSetup::default_distance(std::size_t particles) {
-  return particles == 108 ? 108.0 : 10.0 * std::sqrt(static_cast<double>(particles));
-}
-
 namespace {
 
 template <class Target, class Given>

@@ -25,8 +25,6 @@ class EndPointSetup {
   RunKinds kinds(bool has_pair_files) const;
   bool generates_start() const { return start_file_.empty(); }
 
-  // The default of --distance: 108 at N = 108, else 10 sqrt(N) [sigma].
-  static double default_distance(std::size_t particles);
   // The protocol to run; throws Error(bad_input) for options out of range.
   EndPointProtocol resolve(const AnyModel& model, std::size_t particles, std::uint64_t seed) const;
   // Fills in a state point that was not given, so that the resolved run file has it.

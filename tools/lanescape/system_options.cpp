@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <omp.h>
 
 #include <algorithm>
@@ -54,7 +55,7 @@ constexpr Scope named_models{"model", "runs without a model file, or with one of
 }  // namespace
 
 void SystemOptions::add_to(Options& options) {
-  options.add("--model", model, model_names()).only_for({named_models});
+  options.add("--model", model, fmt::format("{}", fmt::join(known_models(), ", "))).only_for({named_models});
   options.add("--model-file", model_file, "model file (TOML) instead of --model; of kind ucg with --model ucg");
   options.begin_group({soft_models});
   options.add("--cutoff", cutoff, "cutoff of a soft model in units of sigma_ab; of ucg in sigma [2.5]");

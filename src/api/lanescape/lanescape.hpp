@@ -1,16 +1,25 @@
 #pragma once
 
+// What other programs link against, all of it. Lengths, energies and masses are in any consistent units; k_B = 1. Wherever a
+// function throws, it throws lanescape::Error with a code and one line saying what is wrong, where and what is allowed.
+
 #include <array>
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <lanescape/version.h>
-#include <lanescape/export.hpp>
+#include <lanescape/dynamics.hpp>
+#include <lanescape/error.hpp>
+#include <lanescape/hard_spheres.hpp>
+#include <lanescape/insertion.hpp>
+#include <lanescape/landscape.hpp>
+#include <lanescape/model.hpp>
+#include <lanescape/path.hpp>
+#include <lanescape/potential.hpp>
+#include <lanescape/states.hpp>
 
-// What other programs link against. Reduced units: lengths in sigma, energies in epsilon, k_B = 1.
 namespace lanescape {
 LANESCAPE_ABI_BEGIN
 
@@ -18,38 +27,6 @@ LANESCAPE_ABI_BEGIN
 LANESCAPE_API const char* version() noexcept;
 // Instruction sets the kernels can use on this processor, best last.
 LANESCAPE_API std::vector<std::string> instruction_sets();
-
-// The potential energy of a Lennard-Jones mixture in a periodic orthorhombic box. Not thread-safe: one object per thread.
-//
-// Results do not depend on the caller's floating-point environment: rounding mode, traps and flushing to zero are set aside during
-// a call. Two particles at one place give an energy and forces that are not finite.
-class LANESCAPE_API LennardJonesPotential {
- public:
-  struct Options {
-    std::string model = "kob-andersen";  // or "lennard-jones"
-    double cutoff = 2.5;                 // in units of sigma_ab
-    std::string truncation = "shifted";  // or "plain", "tail"
-    std::string images = "all";          // or "minimum"
-    std::string isa = "auto";            // or a name from instruction_sets()
-  };
-
-  // `species[i]` is 0 or 1 for Kob-Andersen's A and B, 0 for the one component of "lennard-jones"; `box` holds edge lengths.
-  // Throws std::runtime_error with one line saying what is wrong and what is allowed.
-  LennardJonesPotential(std::span<const int> species, const std::array<double, 3>& box, const Options& options);
-  ~LennardJonesPotential();
-  LennardJonesPotential(LennardJonesPotential&&) noexcept;
-  LennardJonesPotential& operator=(LennardJonesPotential&&) noexcept;
-
-  // Positions x0 y0 z0 x1 ..., 3N of them, wrapped or not. Throws std::runtime_error if the length is not 3N or a
-  // coordinate is not finite.
-  double energy(std::span<const double> positions);
-  // Also forces, -dV/dr, in the order of the positions, and optionally the virial sum r.f.
-  double energy_and_forces(std::span<const double> positions, std::span<double> forces, double* virial = nullptr);
-
- private:
-  struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
-};
 
 // Pairs of particles within a cutoff as arrays of one length, with ASE's conventions (neighbor_list("ijSDd")). An entry for each
 // pair and direction, (i, j) and (j, i); pairs of a particle with its own images, i == j and S != 0, are among them. Sorted by i, j

@@ -15,10 +15,10 @@ namespace lanescape {
 // Moves of one particle at a time, for Monte Carlo. What a move would change the energy by costs the particle's neighbours at its
 // two places; N does not matter. Own images and long-range corrections do not change with a move. Double precision. Each caller's
 // thread needs its own.
-class ParticleMoves {
+class PairMoves {
  public:
   // Throws what check_cutoff() and ProbeBox::check() throw, and Error(bad_input) for a coordinate that is not finite. O(N).
-  ParticleMoves(const PairModel& model, const Configuration& configuration, const kernels::KernelTable& table);
+  PairMoves(const PairModel& model, const Configuration& configuration, const kernels::KernelTable& table);
 
   // By how much the energy would rise if this particle, from 0, were put there while all others stand still [epsilon]. Not finite
   // where two particles are at one place. Throws Error(bad_input) for a coordinate that is not finite.

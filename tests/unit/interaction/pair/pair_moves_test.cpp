@@ -1,4 +1,4 @@
-#include "interaction/pair/particle_moves.hpp"
+#include "interaction/pair/pair_moves.hpp"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ bool is_allowed(const PairCase& one) {
 void expect_reference(const PairCase& one) {
   if (!is_allowed(one)) return;
   Configuration now = one.configuration;
-  ParticleMoves moves(one.model, now, best_table());
+  PairMoves moves(one.model, now, best_table());
   std::mt19937_64 engine(1);
   std::uniform_real_distribution<double> by(-0.1, 0.1);
   for (int trial = 0; trial < 6; ++trial) {
@@ -46,22 +46,22 @@ void expect_reference(const PairCase& one) {
   EXPECT_EQ(moves.positions(), now.positions) << one.name;
 }
 
-TEST(ParticleMoves, ChangeTheEnergyAsTheReferenceSays) {
+TEST(PairMoves, ChangeTheEnergyAsTheReferenceSays) {
   for (const PairCase& one : pair_cases())
     if (one.configuration.size() <= 300) expect_reference(one);
 }
 
-TEST(ParticleMoves, OfEveryFormChangeTheEnergyAsTheReferenceSays) {
+TEST(PairMoves, OfEveryFormChangeTheEnergyAsTheReferenceSays) {
   for (const PairForm& form : pair_forms())
     for (const PairCase& one : form_cases(form)) expect_reference(one);
 }
 
-TEST(ParticleMoves, AddUpOverALongChain) {
+TEST(PairMoves, AddUpOverALongChain) {
   const PairModel model = kob_andersen();
   const Configuration start = fcc_start(model, 1000, 1.2, 1);
   const ParticleLayout layout = ParticleLayout::in_users_order(start, 2);
   PairInteraction interaction(model, start.box, layout, best_table());
-  ParticleMoves moves(model, start, best_table());
+  PairMoves moves(model, start, best_table());
   double energy = interaction.energy(layout.to_slots(start.positions));
   std::mt19937_64 engine(1);
   std::uniform_real_distribution<double> by(-0.1, 0.1), chance(0.0, 1.0);
@@ -83,17 +83,17 @@ TEST(ParticleMoves, AddUpOverALongChain) {
   EXPECT_LT(accepted, 95000U);
 }
 
-TEST(ParticleMoves, ToThePlaceOfAnotherAreInfinite) {
+TEST(PairMoves, ToThePlaceOfAnotherAreInfinite) {
   const Configuration start = fcc_start(lennard_jones(), 108, 0.8, 1);
-  ParticleMoves moves(lennard_jones(), start, best_table());
+  PairMoves moves(lennard_jones(), start, best_table());
   EXPECT_FALSE(std::isfinite(moves.energy_change(3, start.position(4))));
   EXPECT_NEAR(moves.energy_change(3, start.position(3)), 0.0, 1e-12);
 }
 
-TEST(ParticleMoves, AreRefusedWhereTheyMakeNoSense) {
+TEST(PairMoves, AreRefusedWhereTheyMakeNoSense) {
   const PairModel model = lennard_jones();
   const Configuration start = fcc_start(model, 108, 0.8, 1);
-  ParticleMoves moves(model, start, best_table());
+  PairMoves moves(model, start, best_table());
   EXPECT_THROW(moves.accept(), Error);
   const double change = moves.energy_change(2, {1.0, 1.2, 1.1});
   EXPECT_THROW(moves.energy_change(108, {1.0, 1.0, 1.0}), Error);
@@ -102,7 +102,7 @@ TEST(ParticleMoves, AreRefusedWhereTheyMakeNoSense) {
   EXPECT_EQ(moves.energy_change(2, {1.0, 1.2, 1.1}), change);
   PairModel minimum = model;
   minimum.images = ImageRule::minimum;
-  EXPECT_THROW(ParticleMoves(minimum, fcc_start(model, 32, 0.8, 1), best_table()), Error);
+  EXPECT_THROW(PairMoves(minimum, fcc_start(model, 32, 0.8, 1), best_table()), Error);
 }
 
 }  // namespace

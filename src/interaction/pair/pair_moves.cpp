@@ -1,4 +1,4 @@
-#include "interaction/pair/particle_moves.hpp"
+#include "interaction/pair/pair_moves.hpp"
 
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ double scale_of(const PairModel& model, const Configuration& configuration) {
 
 }  // namespace
 
-ParticleMoves::ParticleMoves(const PairModel& model, const Configuration& configuration, const kernels::KernelTable& table)
+PairMoves::PairMoves(const PairModel& model, const Configuration& configuration, const kernels::KernelTable& table)
     : box_(configuration.box, model.length_unit(scale_of(model, configuration))),
       kernels_(&table.pair_kernels(model.kernel_form().kernel)),
       species_(configuration.species.begin(), configuration.species.end()),
@@ -34,7 +34,7 @@ ParticleMoves::ParticleMoves(const PairModel& model, const Configuration& config
   put_particles(model, configuration);
 }
 
-void ParticleMoves::put_pairs(const PairModel& model, double scale) {
+void PairMoves::put_pairs(const PairModel& model, double scale) {
   const std::vector<kernels::PairParameters> pairs = pair_parameters(model);
   views_.resize(pairs.size());
   for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -43,7 +43,7 @@ void ParticleMoves::put_pairs(const PairModel& model, double scale) {
   }
 }
 
-void ParticleMoves::put_particles(const PairModel& model, const Configuration& configuration) {
+void PairMoves::put_particles(const PairModel& model, const Configuration& configuration) {
   std::vector<std::vector<Point>> homes(species_count_);
   std::vector<std::vector<double>> diameters(species_count_);
   for (std::size_t i = 0; i < size(); ++i) {
@@ -62,11 +62,11 @@ void ParticleMoves::put_particles(const PairModel& model, const Configuration& c
   }
 }
 
-void ParticleMoves::refresh(std::size_t species) {
+void PairMoves::refresh(std::size_t species) {
   for (std::size_t k = species; k < views_.size(); k += species_count_) cells_[species].put_points(views_[k]);
 }
 
-void ParticleMoves::lift(std::size_t particle) {
+void PairMoves::lift(std::size_t particle) {
   if (particle == lifted_) return;
   if (lifted_ != none) {
     cells_[species_[lifted_]].insert(homes_[lifted_], diameter_of(lifted_));
@@ -78,14 +78,14 @@ void ParticleMoves::lift(std::size_t particle) {
   here_ = energy_at(homes_[particle]);
 }
 
-double ParticleMoves::energy_at(const Point& home) const {
+double PairMoves::energy_at(const Point& home) const {
   double energy = 0.0;
   kernels_->probe_energies({views_.data() + species_[lifted_] * species_count_, species_count_, diameter_of(lifted_)}, home.data(),
                            1, &energy);
   return energy;
 }
 
-double ParticleMoves::energy_change(std::size_t particle, const Point& to) {
+double PairMoves::energy_change(std::size_t particle, const Point& to) {
   const FloatEnvironment environment;
   if (particle >= size())
     throw_bad_input(fmt::format("particle {} is not allowed: the last of {} particles is {}", particle, size(),
@@ -98,7 +98,7 @@ double ParticleMoves::energy_change(std::size_t particle, const Point& to) {
   return there_ - here_;
 }
 
-void ParticleMoves::accept() {
+void PairMoves::accept() {
   if (lifted_ == none) throw_bad_input("no move to accept: ask for the energy change of one first");
   std::copy(to_.begin(), to_.end(), positions_.begin() + static_cast<std::ptrdiff_t>(3 * lifted_));
   homes_[lifted_] = to_home_;

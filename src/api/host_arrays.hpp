@@ -1,0 +1,37 @@
+#pragma once
+
+#include <lanescape/potential.hpp>
+
+#include <cstddef>
+#include <span>
+
+#include "configuration/particle_layout.hpp"
+#include "core/aligned_array.hpp"
+
+namespace lanescape {
+
+// Throw Error(bad_input) where an array of the host has not the length that N particles need.
+void check_positions(std::size_t given, std::size_t particles);
+void check_room(const char* what, std::size_t given, std::size_t needed);
+
+// Arrays of a host, in the user's order, and the library's, in the layout's. Keeps the memory of both directions.
+class HostArrays {
+ public:
+  explicit HostArrays(const ParticleLayout& layout) : layout_(layout), positions_(layout.dimension(), 0.0), gradient_(positions_) {}
+
+  const ParticleLayout& layout() const { return layout_; }
+  // Throws Error(bad_input) for another number of particles, and naming a coordinate that is not finite.
+  const AlignedArray& positions(const Vectors<const double>& host);
+  AlignedArray& gradient() { return gradient_; }
+  AlignedArray& energies();  // of each slot
+  // Writes dV/dr, or -dV/dr, of the array above to the host.
+  void write_gradient(std::span<double> host) const;
+  void write_forces(const Vectors<double>& host) const;
+  void write_energies(std::span<double> host) const;
+
+ private:
+  ParticleLayout layout_;
+  AlignedArray positions_, gradient_, energies_;
+};
+
+}  // namespace lanescape

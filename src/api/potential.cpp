@@ -1,0 +1,180 @@
+#include <lanescape/potential.hpp>
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "api/access.hpp"
+#include "api/host_arrays.hpp"
+#include "configuration/model_traits.hpp"
+#include "core/error.hpp"
+#include "core/overloaded.hpp"
+#include "dispatch/isa.hpp"
+#include "interaction/pair/pair_interaction.hpp"
+#include "interaction/pair/pair_moves.hpp"
+
+namespace lanescape {
+LANESCAPE_ABI_BEGIN
+namespace {
+
+const PairModel& pair_model(const Model& model) {
+  const auto* pairs = std::get_if<PairModel>(&detail::Access::of(model));
+  if (pairs == nullptr)
+    throw_bad_input(fmt::format("model {} is made of {}: a Potential needs a model of a pair potential; {}", model.name(),
+                                traits_of(detail::Access::of(model)).particles,
+                                model.has_states() ? "StateSystem is for sites in states" : "HardSpheres is for hard spheres"));
+  return *pairs;
+}
+
+void check_diameters(const PairModel& model, std::size_t given, std::size_t particles) {
+  if (model.form->has_diameters) check_room("diameters", given, particles);
+  if (!model.form->has_diameters && given != 0)
+    throw_bad_input(fmt::format("model {} has no diameters of particles: none are allowed", model.name));
+}
+
+ParticleLayout layout_of(const PairModel& model, const std::vector<int>& species, const std::vector<double>& diameters) {
+  check_diameters(model, diameters.size(), species.size());
+  return ParticleLayout::in_users_order({{}, species, {}, {}, diameters}, model.species.size());
+}
+
+}  // namespace
+
+struct Potential::Implementation {
+  Implementation(Model given, std::span<const int> species_given, const std::array<double, 3>& box_given, Options with)
+      : model(std::move(given)),
+        species(species_given.begin(), species_given.end()),
+        box{box_given},
+        options(std::move(with)),
+        arrays(layout_of(pair_model(model), species, options.diameters)),
+        interaction(pair_model(model), box, arrays.layout(), kernel_table(choose_isa(options.instruction_set)),
+                    {.threads = options.threads, .precision = parse_precision(options.precision)}) {}
+
+  Model model;
+  std::vector<int> species;
+  Box box;
+  Options options;
+  HostArrays arrays;
+  PairInteraction interaction;
+  std::vector<std::array<std::size_t, 2>> exclusions{};
+};
+
+Potential::Potential(Model model, std::span<const int> species, const std::array<double, 3>& box)
+    : Potential(std::move(model), species, box, Options{}) {}
+
+Potential::Potential(Model model, std::span<const int> species, const std::array<double, 3>& box, Options options)
+    : implementation_(std::make_unique<Implementation>(std::move(model), species, box, std::move(options))) {}
+
+Potential::~Potential() = default;
+Potential::Potential(Potential&&) noexcept = default;
+Potential& Potential::operator=(Potential&&) noexcept = default;
+Potential::Potential(const Potential& other) : Potential(other.model(), other.species(), other.box(), other.options()) {
+  if (!other.implementation_->exclusions.empty()) set_exclusions(other.implementation_->exclusions);
+}
+Potential& Potential::operator=(const Potential& other) { return *this = Potential(other); }
+
+std::size_t Potential::particles() const { return implementation_->species.size(); }
+const Model& Potential::model() const { return implementation_->model; }
+const std::vector<int>& Potential::species() const { return implementation_->species; }
+const Potential::Options& Potential::options() const { return implementation_->options; }
+const std::array<double, 3>& Potential::box() const { return implementation_->box.length; }
+
+void Potential::set_box(const std::array<double, 3>& box) {
+  implementation_->interaction.set_box(Box{box});
+  implementation_->box = Box{box};
+}
+
+void Potential::set_exclusions(std::span<const std::array<std::size_t, 2>> pairs) {
+  implementation_->interaction.set_exclusions(pairs);
+  implementation_->exclusions.assign(pairs.begin(), pairs.end());
+}
+
+double Potential::energy(std::span<const double> positions) {
+  check_positions(positions.size(), particles());
+  return implementation_->interaction.energy(implementation_->arrays.positions(Vectors<const double>::interleaved(positions)));
+}
+
+double Potential::energy_and_gradient(std::span<const double> positions, std::span<double> gradient) {
+  check_positions(positions.size(), particles());
+  check_room("gradient components", gradient.size(), positions.size());
+  HostArrays& arrays = implementation_->arrays;
+  const double energy = implementation_->interaction
+                            .energy_and_gradient(arrays.positions(Vectors<const double>::interleaved(positions)), arrays.gradient())
+                            .energy;
+  arrays.write_gradient(gradient);
+  return energy;
+}
+
+double Potential::energy_and_forces(std::span<const double> positions, std::span<double> forces, double* virial) {
+  check_room("force components", forces.size(), 3 * particles());
+  const Evaluation e = evaluate(positions, {.forces = Vectors<double>::interleaved(forces)});
+  if (virial != nullptr) *virial = e.virial;
+  return e.energy;
+}
+
+Evaluation Potential::evaluate(std::span<const double> positions, const Outputs& outputs) {
+  check_positions(positions.size(), particles());
+  return evaluate(Vectors<const double>::interleaved(positions), outputs);
+}
+
+Evaluation Potential::evaluate(const Vectors<const double>& positions, const Outputs& outputs) {
+  auto& [model, species, box, options, arrays, interaction, exclusions] = *implementation_;
+  const AlignedArray& slots = arrays.positions(positions);
+  if (!outputs.energies.empty()) {
+    interaction.energies(slots, arrays.energies());
+    arrays.write_energies(outputs.energies);
+  }
+  const bool forces = outputs.forces.x != nullptr;
+  if (!forces && !outputs.stress) return {.energy = interaction.energy(slots)};
+  // Stresses are in double precision always; the rest has the precision that was asked for.
+  const bool mixed = options.precision == to_string(Precision::mixed);
+  Evaluation result;
+  if (outputs.stress) {
+    const auto e = interaction.energy_and_stress(slots, arrays.gradient());
+    result = {e.energy, e.virial, {}};
+    for (std::size_t k = 0; k < 6; ++k) result.stress[k] = -e.virial_tensor[k] / box.volume();
+  }
+  if (!outputs.stress || mixed) {
+    const auto e = interaction.energy_and_gradient(slots, arrays.gradient());
+    result.energy = e.energy;
+    result.virial = e.virial;
+  }
+  if (forces) arrays.write_forces(outputs.forces);
+  return result;
+}
+
+struct ParticleMoves::Implementation {
+  PairMoves moves;
+};
+
+ParticleMoves::ParticleMoves(const Model& model, std::span<const int> species, std::span<const double> positions,
+                             const std::array<double, 3>& box)
+    : ParticleMoves(model, species, positions, box, Options{}) {}
+
+ParticleMoves::ParticleMoves(const Model& model, std::span<const int> species, std::span<const double> positions,
+                             const std::array<double, 3>& box, const Options& options) {
+  const PairModel& pairs = pair_model(model);
+  check_positions(positions.size(), species.size());
+  check_species(species, pairs.species.size());
+  check_diameters(pairs, options.diameters.size(), species.size());
+  const Configuration fluid{
+      Box{box}, {species.begin(), species.end()}, {positions.begin(), positions.end()}, {}, options.diameters};
+  implementation_ =
+      std::make_unique<Implementation>(Implementation{PairMoves(pairs, fluid, kernel_table(choose_isa(options.instruction_set)))});
+}
+
+ParticleMoves::~ParticleMoves() = default;
+ParticleMoves::ParticleMoves(ParticleMoves&&) noexcept = default;
+ParticleMoves& ParticleMoves::operator=(ParticleMoves&&) noexcept = default;
+
+double ParticleMoves::energy_change(std::size_t particle, const std::array<double, 3>& to) {
+  if (particle >= implementation_->moves.size())
+    throw_bad_input(
+        fmt::format("particle {} is not allowed: there are {}, numbered from 0", particle, implementation_->moves.size()));
+  return implementation_->moves.energy_change(particle, to);
+}
+
+void ParticleMoves::accept() { implementation_->moves.accept(); }
+std::span<const double> ParticleMoves::positions() const { return implementation_->moves.positions(); }
+
+LANESCAPE_ABI_END
+}  // namespace lanescape
