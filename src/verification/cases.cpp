@@ -264,4 +264,11 @@ std::vector<PairCase> form_cases(const PairForm& form) {
   return cases;
 }
 
+std::vector<PairCase> all_pair_cases() {
+  std::vector<PairCase> cases = pair_cases();
+  for (const PairForm& form : pair_forms().subspan(1))
+    for (PairCase& one : form_cases(form)) cases.push_back(std::move(one));
+  return cases;
+}
+
 }  // namespace lanescape

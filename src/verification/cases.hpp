@@ -21,6 +21,8 @@ std::vector<PairCase> pair_cases();
 
 // Fewer cases of the same kind for any pair potential: sizes, image rules, every truncation that it allows, two species.
 std::vector<PairCase> form_cases(const PairForm& form);
+// Both of these for all pair potentials: what kernels of hosts are checked on. Names are unique.
+std::vector<PairCase> all_pair_cases();
 // Prefix of the names of its kernels' results: its keyword, with underscores.
 std::string name_in_results(const PairForm& form);
 

@@ -36,6 +36,8 @@ CASES = [
     ("src/configuration/a.cpp", "<toml++/toml.h>", False),
     ("src/verification/a.cpp", "<hdf5.h>", False),
     ("src/verification/a.cpp", "<nlohmann/json.hpp>", False),
+    ("src/verification/host_kernel.cpp", "<lanescape/host_kernel.h>", True),
+    ("src/verification/a.cpp", "<lanescape/host_kernel.h>", False),
     ("tools/lanescape/a.cpp", "<CLI/CLI.hpp>", True),
     ("src/run/a.cpp", "<CLI/CLI.hpp>", False),
     ("src/stepper/a.cpp", '"landscape/a.hpp"', True),

@@ -145,6 +145,11 @@ Options::Entry& Options::Entry::required() {
   return *this;
 }
 
+Options::Entry& Options::Entry::described(const std::string& description) {
+  option->description(description);
+  return *this;
+}
+
 std::string Options::Entry::fault(const RunKinds& kinds) const {
   if (!refusal.empty()) return refusal;
   for (const std::vector<Scope>& allowed : needs) {

@@ -65,6 +65,8 @@ class Options {
     // The subcommand does not use the option, which belongs to a group that it shares with others: hidden, and always refused.
     Entry& refused(std::string reason);
     Entry& required();
+    // Other words for --help, where a subcommand means something else by an option that it shares with others.
+    Entry& described(const std::string& description);
 
    private:
     friend class Options;

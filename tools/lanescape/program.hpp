@@ -92,6 +92,8 @@ Subcommand add_diffusion(CLI::App& app);
 Subcommand add_insert(CLI::App& app);
 Subcommand add_slab(CLI::App& app);
 Subcommand add_verify(CLI::App& app);
+Subcommand add_cases(CLI::App& app);
+Subcommand add_check(CLI::App& app);
 
 // Watches for SIGINT and SIGTERM, and draws a progress bar with rate and remaining time where stderr is a terminal.
 class TerminalMonitor final : public RunMonitor {
