@@ -26,6 +26,10 @@ endfunction()
 lanescape_install_component(CXX lanescape)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/api/lanescape ${PROJECT_BINARY_DIR}/generated/lanescape DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         COMPONENT CXX FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp")
+install(FILES ${PROJECT_SOURCE_DIR}/cmake/LanescapeVerification.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lanescape
+        RENAME lanescape-verification.cmake COMPONENT Verification)
+install(FILES ${PROJECT_SOURCE_DIR}/src/api/lanescape/host_kernel.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lanescape COMPONENT Verification)
+lanescape_install_config(Verification)
 
 # Users of a static library must link its dependencies. A prefix holds only one form of the library, so the pkg-config file lists
 # these without --static.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -46,10 +47,8 @@ Json to_json(const PairCase& one) {
 
 std::string content(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in || !text) throw_bad_input(fmt::format("{}: cannot be read", file.string()));
-  return text.str();
+  if (!in || !std::filesystem::is_regular_file(file)) throw_bad_input(fmt::format("{}: cannot be read", file.string()));
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 void check_untouched(const std::filesystem::path& file, const std::string& expected) {
