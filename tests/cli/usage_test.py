@@ -50,7 +50,7 @@ class Usage(ProgramTest):
 
     def test_thread_counts_below_one_are_refused(self):
         for bad in ("0", "-1", "100000", "x"):
-            for subcommand in ("info", "endpoints", "verify"):
+            for subcommand in ("info", "endpoints", "verify", "cases"):
                 self.refused(subcommand, "--threads", bad, says="--threads")
 
     def test_threads_come_from_the_flag_or_else_the_environment(self):
@@ -98,7 +98,8 @@ class InstructionSets(ProgramTest):
 
     def test_an_unknown_one_is_refused_by_every_subcommand(self):
         two = self.file("two.xyz", frame(*TWO))
-        for arguments in (("info",), ("energy", two, *ARGON), ("endpoints", *ARGON, *TINY), ("path", *ARGON, *TINY), ("verify",)):
+        for arguments in (("info",), ("energy", two, *ARGON), ("endpoints", *ARGON, *TINY), ("path", *ARGON, *TINY), ("verify",),
+                          ("cases", "--out", self.folder / "cases"), ("check", self.folder)):
             self.refused(*arguments, "--isa", "neon512", says=("neon512", "avx2"))
             self.refused(*arguments, LANESCAPE_ISA="neon512", says=("neon512", "avx2"))
 

@@ -6,6 +6,7 @@ namespace {
 
 Json run_cases(CommonOptions& common, Options& options, int& status) {
   common.check();
+  common.resolve_isa();  // refuses unknown ones
   options.settle({});
   if (common.folder_kind().scope.name.empty()) throw_bad_input("--out: a folder for the files of the cases is needed");
   const std::vector<PairCase> cases = all_pair_cases();

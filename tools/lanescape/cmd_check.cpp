@@ -12,6 +12,7 @@ struct CheckState {
 
 Json run_check(CheckState& state, Options& options, int& status) {
   state.common.check();
+  state.common.resolve_isa();  // refuses unknown ones
   options.settle({});
   const HostPrecision precision = parse_host_precision(state.precision);
   const std::vector<PairCase> cases = all_pair_cases();
