@@ -7,7 +7,8 @@ struct sums {
   double energy, virial;
 };
 
-/* One image of a pair at the separation d. The force on i goes to f_i, its opposite to f_j; a particle and its own image feel none. */
+/* One image of a pair at the separation d. The force on i goes to f_i, its opposite to f_j; a particle and its own image feel none.
+ */
 static void add_pair(const double d[3], double weight, double cutoff, double shift, double* f_i, double* f_j, struct sums* sums) {
   const double r2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
   if (r2 >= cutoff * cutoff) return;
@@ -40,7 +41,8 @@ static void add_images(const double* r_i, const double* r_j, int own, const doub
       }
 }
 
-double my_lennard_jones(size_t particles, const double* positions, const double box[3], double cutoff, double* forces, double* virial) {
+double my_lennard_jones(size_t particles, const double* positions, const double box[3], double cutoff, double* forces,
+                        double* virial) {
   const double s6 = pow(cutoff, -6), shift = 4.0 * s6 * (s6 - 1.0);
   struct sums sums = {0.0, 0.0};
   for (size_t k = 0; k < 3 * particles; ++k) forces[k] = 0.0;

@@ -1,7 +1,7 @@
 #pragma once
 
-/* A kernel of a host's own, as `lanescape verify --library FILE --symbol NAME` calls it: one C function in a shared library. The header
-   declares types only; nothing has to be linked. docs/HOST_KERNELS.md has the formulas and an example. */
+/* A kernel of a host's own, as `lanescape verify --library FILE --symbol NAME` calls it: one C function in a shared library. The
+   header declares types only; nothing has to be linked. docs/HOST_KERNELS.md has the formulas and an example. */
 
 #include <stddef.h>
 
@@ -25,11 +25,7 @@ enum lanescape_kernel_images {
 };
 
 /* What a kernel computes: bits of lanescape_kernel_output.computed. */
-enum lanescape_kernel_quantity {
-  LANESCAPE_KERNEL_ENERGY = 1,
-  LANESCAPE_KERNEL_FORCES = 2,
-  LANESCAPE_KERNEL_VIRIAL = 4
-};
+enum lanescape_kernel_quantity { LANESCAPE_KERNEL_ENERGY = 1, LANESCAPE_KERNEL_FORCES = 2, LANESCAPE_KERNEL_VIRIAL = 4 };
 
 /* What a kernel returns. Any other value is a failure of this case. */
 enum lanescape_kernel_status {

@@ -1,4 +1,5 @@
-/* A host's kernel for every case: plain loops over all pairs and images, written from docs/HOST_KERNELS.md. REAL is its arithmetic. */
+/* A host's kernel for every case: plain loops over all pairs and images, written from docs/HOST_KERNELS.md. REAL is its arithmetic.
+ */
 #include "right_kernel.h"
 
 #include <string.h>
@@ -128,8 +129,8 @@ static void add_image(const struct potential* p, const REAL d[3], size_t i, size
   }
 }
 
-static void add_pair(const lanescape_kernel_input* in, int own_images, size_t i, size_t j, const struct potential* p, double* forces,
-                     struct sums* sums) {
+static void add_pair(const lanescape_kernel_input* in, int own_images, size_t i, size_t j, const struct potential* p,
+                     double* forces, struct sums* sums) {
   REAL nearest[3], edge[3];
   int most[3];
   for (int axis = 0; axis < 3; ++axis) {
@@ -151,7 +152,8 @@ static void add_pair(const lanescape_kernel_input* in, int own_images, size_t i,
 static void add_tail(const lanescape_kernel_input* in, const struct potential* p, struct sums* sums) {
   const REAL rc = p->cutoff, volume = in->box[0] * in->box[1] * in->box[2], weight = 2 * 3.14159265358979323846 / volume;
   REAL tail = 0;
-  if (p->kind == yukawa) tail = p->epsilon * p->sigma * exp(-p->kappa * (rc - p->sigma)) * (rc / p->kappa + 1 / (p->kappa * p->kappa));
+  if (p->kind == yukawa)
+    tail = p->epsilon * p->sigma * exp(-p->kappa * (rc - p->sigma)) * (rc / p->kappa + 1 / (p->kappa * p->kappa));
   for (int k = 0; p->kind == powers && k < 4; ++k)
     if (p->factor[k] != 0) tail += p->factor[k] * pow(p->sigma / rc, p->exponent[k]) * rc * rc * rc / (p->exponent[k] - 3);
   sums->energy += weight * tail;

@@ -17,7 +17,9 @@ KERNEL(declines_everything) {
   return LANESCAPE_KERNEL_DECLINED;
 }
 
-KERNEL(declines_all_but_one) { return strcmp(in->name, "lennard-jones N=9 all shifted") ? LANESCAPE_KERNEL_DECLINED : right_kernel(in, out); }
+KERNEL(declines_all_but_one) {
+  return strcmp(in->name, "lennard-jones N=9 all shifted") ? LANESCAPE_KERNEL_DECLINED : right_kernel(in, out);
+}
 
 KERNEL(crashes_in_one_case) {
   if (strcmp(in->name, "pair across a corner (box)") == 0) abort();
