@@ -26,4 +26,31 @@ struct NeighbourQuery {
   std::uint32_t self;  // index of the searching point, which is skipped
 };
 
+// A search for rows that are near each other, which look through the same points.
+inline constexpr std::size_t most_group_rows = 16;
+
+struct GroupRow {
+  double position[3];
+  std::uint32_t self;  // index of its own point, which is skipped
+};
+
+struct GroupQuery {
+  const GroupRow* rows;
+  std::size_t row_count;  // 1 to most_group_rows
+  double reach, certain;  // from `reach` on, points are surely beyond the cutoff; below `certain`, within it
+  // What is written of each point; 16 entries past the end are readable.
+  const std::uint32_t* numbers;
+  // Room for `capacity` points, overwritten.
+  float *x, *y, *z;
+  std::uint32_t* found;
+  std::size_t capacity;
+};
+
+struct GroupOutput {
+  std::uint32_t* numbers;  // row after row
+  std::size_t capacity;
+  std::uint32_t* counts;   // of each row
+  std::uint8_t* doubtful;  // of each row: whether some are between `certain` and `reach`
+};
+
 }  // namespace lanescape::kernels

@@ -18,9 +18,6 @@ struct OrderedPairs {
   std::vector<double> distance;                   // |separation|
 };
 
-// The largest number of boxes within a cutoff along an axis.
-inline constexpr double max_boxes_in_cutoff = 32.0;
-
 // All pairs with distance < cutoff, a particle and its own images included. `positions`: 3N numbers x0 y0 z0 x1 ..., wrapped or
 // not, in any unit of length that all arguments share. A kernel names candidates in single precision; separations and the
 // decision are those of the formulas above in double precision, rounded one by one, so that no instruction set changes them.
