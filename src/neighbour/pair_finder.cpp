@@ -137,7 +137,6 @@ PairRule PairFinder::rule(bool between_particles) const {
   rule.cutoffs = options_.cutoffs;
   rule.species = species_;
   if (!between_particles) return rule;
-  rule.half = options_.half;
   if (!exclusions_.empty()) {
     rule.first_excluded = first_excluded_;
     rule.excluded = excluded_;
@@ -145,7 +144,7 @@ PairRule PairFinder::rule(bool between_particles) const {
   return rule;
 }
 
-FoundPairs PairFinder::pairs() { return find(points_.own_rows(), points_.particles(), rule(true)); }
+FoundPairs PairFinder::pairs() { return find(points_.own_rows(), points_.particles(), rule(true), options_.half); }
 
 FoundPairs PairFinder::neighbours(std::span<const double> positions, std::span<const std::int32_t> species) {
   const FloatEnvironment environment;
@@ -155,15 +154,15 @@ FoundPairs PairFinder::neighbours(std::span<const double> positions, std::span<c
   if (!points_.allows(greatest)) points_.sort(space_, positions_, particle_species_, cutoff_, greatest);
   PairRow* rows = query_rows_.room_for(positions.size() / 3);
   points_.make_rows(positions, species, rows);
-  return find(rows, positions.size() / 3, rule(false));
+  return find(rows, positions.size() / 3, rule(false), false);
 }
 
-FoundPairs PairFinder::find(const PairRow* rows, std::size_t count, const PairRule& rule) {
+FoundPairs PairFinder::find(const PairRow* rows, std::size_t count, const PairRule& rule, bool half) {
   std::size_t pairs = 0;
   try {
     counts_.room_for(count);
     doubtful_.room_for(count);
-    for_each_part(options_.threads, [&](int part) { search(part, rows, count, rule); });
+    for_each_part(options_.threads, [&](int part) { search(part, rows, count, rule, half); });
     place_rows(rows, count);
     pairs = static_cast<std::size_t>(segments_[count]);
     arrays_ = make_room(pairs);
@@ -241,6 +240,17 @@ void PairFinder::search_group(Part& part, const PairRow* rows, std::size_t begin
   }
 }
 
+// Of (i, j, S) and (j, i, -S) the one whose point is later in the order of particles and images.
+void PairFinder::keep_later(const PairRow& row, std::uint32_t* numbers, std::uint32_t& count) const {
+  std::uint32_t kept = 0;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const std::uint32_t number = numbers[k], rank = options_.sorted ? number : points_.ranks()[number];
+    numbers[kept] = number;
+    kept += rank > row.particle.rank;
+  }
+  count = kept;
+}
+
 void PairFinder::keep(const PairRule& rule, const PairRow& row, std::uint32_t* numbers, std::uint32_t& count) const {
   if (options_.sorted)
     for (std::uint32_t k = 0; k < count; ++k) numbers[k] = points_.by_rank()[numbers[k]];
@@ -249,7 +259,7 @@ void PairFinder::keep(const PairRule& rule, const PairRow& row, std::uint32_t* n
     for (std::uint32_t k = 0; k < count; ++k) numbers[k] = points_.ranks()[numbers[k]];
 }
 
-void PairFinder::search(int index, const PairRow* rows, std::size_t count, const PairRule& rule) {
+void PairFinder::search(int index, const PairRow* rows, std::size_t count, const PairRule& rule, bool half) {
   const FloatEnvironment environment;
   Part& part = parts_[static_cast<std::size_t>(index)];
   const std::size_t begin = first_row(count, index), end = first_row(count, index + 1);
@@ -276,6 +286,7 @@ void PairFinder::search(int index, const PairRow* rows, std::size_t count, const
       const std::uint32_t found = counts_[r];
       std::uint32_t* numbers = part.numbers.data() + used;
       if (numbers != from) std::copy(from, from + found, numbers);
+      if (half) keep_later(rows[r], numbers, counts_[r]);
       if (doubtful_[r] || !rule.is_plain()) keep(rule, rows[r], numbers, counts_[r]);
       from += found;
       used += counts_[r];

@@ -63,13 +63,14 @@ class PairFinder {
   void check_particles(std::span<const double> positions, std::span<const std::int32_t> species, const char* what) const;
   Point greatest_of(std::span<const double> positions) const;
   PairRule rule(bool between_particles) const;
-  FoundPairs find(const PairRow* rows, std::size_t count, const PairRule& rule);
-  void search(int part, const PairRow* rows, std::size_t count, const PairRule& rule);
+  FoundPairs find(const PairRow* rows, std::size_t count, const PairRule& rule, bool half);
+  void search(int part, const PairRow* rows, std::size_t count, const PairRule& rule, bool half);
   std::size_t first_row(std::size_t count, int part) const;
   // The end of the group of rows that starts at `begin`: those near each other.
   std::size_t group_end(const PairRow* rows, std::size_t begin, std::size_t end) const;
   // Appends the points near each row of a group to the `used` numbers of a part.
   void search_group(Part& part, const PairRow* rows, std::size_t begin, std::size_t end, std::size_t used);
+  void keep_later(const PairRow& row, std::uint32_t* numbers, std::uint32_t& count) const;
   void keep(const PairRule& rule, const PairRow& row, std::uint32_t* numbers, std::uint32_t& count) const;
   void place_rows(const PairRow* rows, std::size_t count);
   void write(int part, const PairRow* rows, std::size_t count, const PairRule& rule);

@@ -20,7 +20,6 @@ Point separation(const Point& edges, const PairPoint& from, const PairPoint& to)
 double length(const double* d) { return std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]); }
 
 bool is_excluded(const PairRule& rule, std::int64_t first, std::int64_t second) {
-  if (rule.first_excluded.empty()) return false;
   const auto i = static_cast<std::size_t>(first);
   const auto begin = rule.excluded.begin();
   return std::binary_search(begin + static_cast<std::ptrdiff_t>(rule.first_excluded[i]),
@@ -36,10 +35,14 @@ std::size_t keep_neighbours(const PairRule& rule, const PairRow& row, const Pair
   for (std::size_t k = 0; k < count; ++k) {
     const PairPoint& point = points[numbers[k]];
     const Point d = separation(rule.edges, row.particle, point);
-    const bool keep = (length(d.data()) < cutoffs[point.species]) & (!rule.half | (point.rank > row.particle.rank));
     numbers[kept] = numbers[k];
-    kept += keep && !is_excluded(rule, row.particle.particle, point.particle);
+    kept += length(d.data()) < cutoffs[point.species];
   }
+  if (!rule.first_excluded.empty())
+    kept = static_cast<std::size_t>(
+        std::remove_if(numbers, numbers + kept,
+                       [&](std::uint32_t k) { return is_excluded(rule, row.particle.particle, points[k].particle); }) -
+        numbers);
   return kept;
 }
 

@@ -17,12 +17,12 @@ struct PairRule {
   Point edges{};                    // of the box; 0 along open axes
   std::span<const double> cutoffs;  // species x species; 0: such a pair is never listed
   std::size_t species = 1;
-  bool half = false;  // of (i, j, S) and (j, i, -S) the one with j > i or, for a particle's own images, S > 0 in the order of axes
   // Particles that are no neighbours of particle i: excluded[k] for k from first_excluded[i]. Empty: none.
   std::span<const std::size_t> first_excluded;
   std::span<const std::int64_t> excluded;
 
-  bool is_plain() const { return species == 1 && !half && first_excluded.empty(); }
+  // Whether points within the cutoff are neighbours without further questions.
+  bool is_plain() const { return species == 1 && first_excluded.empty(); }
 };
 
 // Where pairs are written; null: not wanted.

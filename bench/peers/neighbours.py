@@ -1,0 +1,256 @@
+#!/usr/bin/env python3
+"""Neighbour pairs by NeighbourFinder, vesin, matscipy and freud side by side: bench/peers/neighbours.py [--json FILE]
+
+A liquid's density, a lattice with random displacements, particles in the order of the lattice and shuffled. First the sets of pairs are
+compared: i, j and S of vesin and matscipy must equal ours, else nothing is timed (exit status 1). freud works in single precision: the
+number of its pairs that differ is reported. Then all codes are called in turn, --repetitions times, on one thread, and the shortest
+times are compared, each mode of a peer with the same mode of ours:
+  reused  an object that has seen the particles before; its arrays are written again
+  fresh   a new object for each call
+Python peers run in this process, ours in neighbour_timer beside it; the interpreter costs microseconds per call.
+
+It needs Python with numpy and those of vesin, matscipy and freud-analysis that are to be compared; what is missing is reported.
+Exit status: 0; 1 if pairs disagree or a program fails; 2 for wrong usage.
+"""
+
+import dataclasses
+import datetime
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+os.environ["OMP_NUM_THREADS"] = "1"  # before the peers are imported
+
+import numpy as np  # noqa: E402
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+from benchmark_results import ISAS, Arguments  # noqa: E402
+from ours import Failed  # noqa: E402
+from systems import LIQUIDS, lattice, wrapped  # noqa: E402
+
+
+@dataclasses.dataclass(frozen=True)
+class Mode:
+    """A way to call a peer, and the same mode of ours: order, members, quantities, age."""
+
+    code: str
+    name: str
+    call: object  # without arguments; what it returns is dropped after the clock has stopped
+    ours: tuple
+
+
+class Ours:
+    """neighbour_timer on one configuration."""
+
+    def __init__(self, program, file, isa):
+        self.process = subprocess.Popen([program, file, isa], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+
+    def ask(self, *words):
+        try:
+            print(*words, file=self.process.stdin, flush=True)
+            answer = self.process.stdout.readline().split()
+        except BrokenPipeError:
+            answer = []
+        if not answer:
+            raise Failed(f"neighbour_timer: no answer to {' '.join(map(str, words))}")
+        return answer
+
+    def close(self):
+        self.process.stdin.close()
+        self.process.wait()
+
+
+def imported(name, missing):
+    try:
+        return __import__(name, fromlist=["_"])
+    except ImportError as error:
+        missing.append({"what": name, "why": str(error)})
+        return None
+
+
+def sorted_keys(i, j, shifts):
+    keys = np.column_stack([i, j, shifts]).astype(np.int64)
+    return keys[np.lexsort(keys.T[::-1])]
+
+
+class Vesin:
+    def __init__(self, module, positions, edge, cutoff):
+        self.module, self.positions, self.box, self.cutoff = module, positions, np.diag([edge] * 3), cutoff
+
+    def calculator(self, **options):
+        return self.module.NeighborList(**{"cutoff": self.cutoff, "full_list": True, "sorted": False, "n_threads": 1, **options})
+
+    def compute(self, calculator, quantities):
+        return calculator.compute(self.positions, self.box, True, quantities, copy=False)
+
+    def differing(self, expected):
+        calculator = self.calculator()  # it owns the arrays
+        i, j, shifts = self.compute(calculator, "ijS")
+        return len(expected) - int((sorted_keys(i, j, shifts) == expected).all(axis=1).sum()) if len(i) == len(expected) else len(i)
+
+    def modes(self):
+        for order in ("any", "sorted"):
+            for members in ("full", "half"):
+                options = {"sorted": order == "sorted", "full_list": members == "full"}
+                for quantities in ("ijSDd", "ij"):
+                    kept = self.calculator(**options)
+                    yield Mode("vesin", f"{order} {members} {quantities} reused", lambda k=kept, q=quantities: self.compute(k, q),
+                               (order, members, quantities, "reused"))
+                    yield Mode("vesin", f"{order} {members} {quantities} fresh",
+                               lambda o=options, q=quantities: (c := self.calculator(**o), self.compute(c, q)), (order, members, quantities, "fresh"))
+            # The particles do not move: vesin keeps its list, and only the distances are computed again.
+            kept = self.calculator(sorted=order == "sorted", skin=0.3)
+            yield Mode("vesin", f"{order} full ijSDd, list of skin 0.3 kept", lambda k=kept: self.compute(k, "ijSDd"), (order, "full", "ijSDd", "reused"))
+
+
+class Matscipy:
+    def __init__(self, module, positions, edge, cutoff):
+        self.list = lambda quantities: module.neighbour_list(quantities, positions=positions, cell=np.diag([edge] * 3), pbc=[True] * 3, cutoff=cutoff)
+
+    def differing(self, expected):
+        i, j, shifts = self.list("ijS")
+        return len(expected) - int((sorted_keys(i, j, shifts) == expected).all(axis=1).sum()) if len(i) == len(expected) else len(i)
+
+    def modes(self):
+        for quantities in ("ijSDd", "ij"):
+            yield Mode("matscipy", f"sorted full {quantities} fresh", lambda q=quantities: self.list(q), ("sorted", "full", quantities, "fresh"))
+
+
+class Freud:
+    def __init__(self, module, positions, edge, cutoff):
+        module.parallel.set_num_threads(1)
+        self.module, self.box, self.cutoff = module.locality, module.box.Box.cube(edge), cutoff
+        self.points = self.box.wrap(positions - 0.5 * edge)
+
+    def query(self):
+        return self.module.AABBQuery(self.box, self.points)
+
+    def list(self, query):
+        return query.query(self.points, {"r_max": self.cutoff, "exclude_ii": True}).toNeighborList()
+
+    def differing(self, expected):
+        pairs = np.asarray(self.list(self.query())[:]).astype(np.int64)
+        code = lambda i, j: i * len(self.points) + j  # noqa: E731
+        return len(np.setxor1d(code(pairs[:, 0], pairs[:, 1]), code(expected[:, 0], expected[:, 1])))
+
+    def modes(self):
+        query = self.query()
+        yield Mode("freud", "sorted full ijDd reused", lambda: self.list(query), ("sorted", "full", "ijDd", "reused"))
+        yield Mode("freud", "sorted full ijDd fresh", lambda: self.list(self.query()), ("sorted", "full", "ijDd", "fresh"))
+
+
+PEERS = {"vesin": ("vesin", Vesin), "matscipy": ("matscipy.neighbours", Matscipy), "freud": ("freud", Freud)}
+SINGLE_PRECISION = {"freud"}
+
+
+def configuration(particles, order, seed):
+    """A lattice at density 1.2 with random displacements, in the order of the lattice or shuffled, and its box."""
+    rng, sites = np.random.default_rng(seed), lattice(LIQUIDS["kob-andersen"], particles, seed)
+    positions = wrapped(sites.positions + rng.normal(0.0, 0.08, (particles, 3)), sites.edge)
+    return np.ascontiguousarray(positions[rng.permutation(particles)] if order == "shuffled" else positions), float(sites.edge)
+
+
+def check(ours, peers, folder):
+    """How many pairs of each peer differ from ours. Raises Failed where they must not."""
+    file = folder / "pairs"
+    ours.ask("pairs", file)
+    expected = np.fromfile(file, dtype=np.int64).reshape(-1, 5)
+    differing = {}
+    for name, peer in peers.items():
+        differing[name] = int(peer.differing(expected))
+        if differing[name] and name not in SINGLE_PRECISION:
+            raise Failed(f"{name}: {differing[name]} of {len(expected)} pairs differ; nothing was timed")
+    return len(expected), differing
+
+
+def compare(ours, modes, repetitions):
+    """The shortest times [s] of each mode, theirs and ours in turn."""
+    theirs, own = {}, {}
+    for _ in range(repetitions):
+        for mode in modes:
+            begin = time.perf_counter()
+            result = mode.call()
+            seconds = time.perf_counter() - begin
+            del result
+            theirs[mode] = min(seconds, theirs.get(mode, seconds))
+            seconds = float(ours.ask("time", *mode.ours, 1)[1])
+            own[mode.ours] = min(seconds, own.get(mode.ours, seconds))
+    return [(mode, theirs[mode], own[mode.ours]) for mode in modes]
+
+
+def run(options, missing):
+    modules = {name: imported(PEERS[name][0], missing) for name in options.peers}
+    results = []
+    with tempfile.TemporaryDirectory() as folder:
+        for particles in options.sizes:
+            for order in ("ordered", "shuffled"):
+                positions, edge = configuration(particles, order, options.seed)
+                file = Path(folder) / "configuration"
+                np.concatenate([[edge, options.cutoff], positions.ravel()]).tofile(file)
+                ours = Ours(options.timer, file, options.isa)
+                peers = {name: PEERS[name][1](module, positions, edge, options.cutoff) for name, module in modules.items() if module}
+                pairs, differing = check(ours, peers, Path(folder))
+                modes = [mode for peer in peers.values() for mode in peer.modes()]
+                for mode, theirs, own in compare(ours, modes, options.repetitions):
+                    each = pairs / 2 if mode.ours[1] == "half" else pairs
+                    results.append({"particles": particles, "order": order, "code": mode.code, "mode": mode.name, "pairs": pairs,
+                                    "differing": differing[mode.code], "ns_per_pair": 1e9 * theirs / each,
+                                    "ours_ns_per_pair": 1e9 * own / each, "ratio": theirs / own})
+                ours.close()
+    return results
+
+
+def print_table(results, missing):
+    print("Nanoseconds per pair, shortest of all calls, one thread; ratio: peer/lanescape")
+    group = None
+    for row in results:
+        if group != (row["particles"], row["order"]):
+            group = row["particles"], row["order"]
+            print(f"\nN = {row['particles']}, {row['order']}, {row['pairs']} pairs")
+        remark = f"  {row['differing']} pairs differ" if row["differing"] else ""
+        print(f"  {row['code']:9} {row['mode']:42} {row['ns_per_pair']:8.2f} {row['ours_ns_per_pair']:8.2f} {row['ratio']:7.2f}{remark}")
+    for entry in missing:
+        print(f"missing: {entry['what']}: {entry['why']}")
+
+
+def main(arguments):
+    parser = Arguments(prog="neighbours.py", description="Neighbour pairs by other codes beside ours; the head of this file describes the comparison.")
+    parser.add_argument("--timer", type=Path, default=ROOT / "build/release/bench/neighbour_timer", help="[build/release/bench/neighbour_timer]")
+    parser.add_argument("--isa", choices=(*ISAS, "auto"), default="auto", help="instruction set of ours [auto]")
+    parser.add_argument("--peers", nargs="+", choices=tuple(PEERS), default=tuple(PEERS), help="[all]")
+    parser.add_argument("--sizes", nargs="+", type=int, default=(1000, 10000, 100000), metavar="N", help="particles [1000 10000 100000]")
+    parser.add_argument("--cutoff", type=float, default=2.5, help="[2.5]")
+    parser.add_argument("--repetitions", type=int, default=7, help="[7]")
+    parser.add_argument("--seed", type=int, default=1, help="[1]")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the results there")
+    options = parser.parse_args(arguments)
+    for name, least in (("repetitions", 1), ("seed", 1), ("cutoff", 1e-3)):
+        if not getattr(options, name) >= least:
+            parser.error(f"--{name} {getattr(options, name)}: must be at least {least}")
+    for size in options.sizes:
+        if size < 256:
+            parser.error(f"--sizes {size}: must be at least 256")
+    if not os.access(options.timer, os.X_OK):
+        parser.error(f"--timer {options.timer}: no such program; is it built?")
+    missing = []
+    try:
+        results = run(options, missing)
+        if options.json:
+            context = {"date": datetime.datetime.now().astimezone().isoformat(timespec="seconds"), "load_average": os.getloadavg()[0],
+                       "cutoff": options.cutoff, "isa": options.isa, "repetitions": options.repetitions}
+            options.json.write_text(json.dumps({"context": context, "missing": missing, "results": results}, indent=2) + "\n")
+    except (Failed, OSError) as error:
+        print(f"neighbours.py: {error}", file=sys.stderr)
+        return 1
+    print_table(results, missing)
+    return 0 if results else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
