@@ -32,6 +32,7 @@
 #include "landscape/hard_sphere_landscape.hpp"
 #include "landscape/pair_landscape.hpp"
 #include "neighbour/neighbour_list.hpp"
+#include "neighbour/pair_finder.hpp"
 #include "path/finder.hpp"
 #include "stepper/avoidance.hpp"
 #include "stepper/contour.hpp"
@@ -190,6 +191,16 @@ void neighbour_list(Isa isa, std::uint64_t rounds) {
   for (; rounds > 0; --rounds) list.update(rounds % 2 == 0 ? liquid.positions : liquid.moved);
 }
 
+// Sorted pairs for a host, in memory that is kept.
+void neighbour_pairs(Isa isa, std::uint64_t rounds) {
+  const ListLiquid liquid;
+  PairFinder finder({.cutoffs = {2.5}}, kernel_table(isa));
+  for (; rounds > 0; --rounds) {
+    finder.set_particles(liquid.start.positions, liquid.start.box.length, {});
+    keep(finder.pairs().count);
+  }
+}
+
 // All images within the cutoff.
 void contour_step(Isa isa, std::uint64_t rounds) {
   SoftLiquid liquid;
@@ -335,6 +346,7 @@ constexpr Case cases[] = {
     {"state_lj_gradient", state_lj_gradient, 2},
     {"state_table_gradient", state_table_gradient, 2},
     {"neighbour_list", neighbour_list, 4},
+    {"neighbour_pairs", neighbour_pairs, 2},
     {"lj_probe", lj_probe, 400},
     {"lj_probe_first_clear", lj_probe_first_clear, 4000},
     {"contour_step", contour_step, 40},

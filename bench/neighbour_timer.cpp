@@ -1,20 +1,19 @@
 // NeighbourFinder for bench/peers/neighbours.py: neighbour_timer FILE [ISA], where FILE holds the edge of a cubic box, the cutoff
 // and positions as doubles. Each line on stdin is a command, each answer a line:
-//   time ORDER MEMBERS QUANTITIES AGE REPETITIONS    sorted or any, full or half, letters of ijSDd, fresh or reused:
-//                                                    number of pairs and shortest time of a call [s]
-//   pairs FILE                                       writes i j Sx Sy Sz of all pairs, sorted, as 64-bit integers: their number
+//   time ORDER MEMBERS QUANTITIES AGE    sorted or any, full or half, letters of ijSDd, fresh or reused: the number of pairs and
+//   the
+//                                        processor time of a call [s]; the object of the last such call is kept for the next
+//   pairs FILE                           writes i j Sx Sy Sz of all pairs, sorted, as 64-bit integers; their number
 
 #include <lanescape/neighbours.hpp>
 
-#include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdint>
+#include <ctime>
 #include <exception>
 #include <fstream>
 #include <iostream>
-#include <limits>
-#include <map>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -50,13 +49,16 @@ class Timer {
     std::string command, order, members, quantities, age;
     words >> command;
     if (command == "pairs") return write_pairs(words);
-    int repetitions = 0;
-    if (command != "time" || !(words >> order >> members >> quantities >> age >> repetitions))
-      throw std::runtime_error(line + ": not a command");
-    const NeighbourFinder::Options options = options_of(order, members, quantities);
-    if (age == "fresh") return best(repetitions, [&] { return NeighbourFinder(options); });
-    auto& kept = kept_.try_emplace(order + members + quantities, options).first->second;
-    return best(repetitions, [&]() -> NeighbourFinder& { return kept; });
+    if (command != "time" || !(words >> order >> members >> quantities >> age)) throw std::runtime_error(line + ": not a command");
+    if (line != kept_for_ || age == "fresh") kept_.reset();
+    kept_for_ = line;
+    // Making an object is timed, destroying it is not: the arrays of other codes live on too.
+    const double begin = processor_time();
+    if (!kept_) kept_.emplace(options_of(order, members, quantities));
+    const std::size_t count = kept_->find(input_.positions, input_.box).count;
+    std::ostringstream text;
+    text << count << ' ' << processor_time() - begin;
+    return text.str();
   }
 
  private:
@@ -69,21 +71,7 @@ class Timer {
             .isa = isa_};
   }
 
-  // Making an object is timed, destroying it is not: the arrays of other codes live on too.
-  template <class Make>
-  std::string best(int repetitions, Make make) const {
-    double shortest = std::numeric_limits<double>::infinity();
-    std::size_t count = 0;
-    for (int k = 0; k < repetitions; ++k) {
-      const auto begin = std::chrono::steady_clock::now();
-      auto&& finder = make();
-      count = finder.find(input_.positions, input_.box).count;
-      shortest = std::min(shortest, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-    }
-    std::ostringstream text;
-    text << count << ' ' << shortest;
-    return text.str();
-  }
+  static double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
   std::string write_pairs(std::istream& words) const {
     std::string file;
@@ -101,7 +89,8 @@ class Timer {
 
   Input input_;
   std::string isa_;
-  std::map<std::string, NeighbourFinder> kept_;
+  std::string kept_for_;
+  std::optional<NeighbourFinder> kept_;
 };
 
 }  // namespace

@@ -3,11 +3,12 @@
 
 A liquid's density, a lattice with random displacements, particles in the order of the lattice and shuffled. First the sets of pairs are
 compared: i, j and S of vesin and matscipy must equal ours, else nothing is timed (exit status 1). freud works in single precision: the
-number of its pairs that differ is reported. Then all codes are called in turn, --repetitions times, on one thread, and the shortest
-times are compared, each mode of a peer with the same mode of ours:
+number of its pairs that differ is reported. Then each mode of a peer and the same mode of ours are called in turn, --repetitions times, on
+one thread, and the shortest times are compared:
   reused  an object that has seen the particles before; its arrays are written again
   fresh   a new object for each call
-Python peers run in this process, ours in neighbour_timer beside it; the interpreter costs microseconds per call.
+Times are those of the processor, page faults included: other programs on the machine change them less than those of the clock. Python
+peers run in this process, ours in neighbour_timer beside it; the interpreter costs microseconds per call.
 
 It needs Python with numpy and those of vesin, matscipy and freud-analysis that are to be compared; what is missing is reported.
 Exit status: 0; 1 if pairs disagree or a program fails; 2 for wrong usage.
@@ -21,6 +22,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from functools import partial
 from pathlib import Path
 
 os.environ["OMP_NUM_THREADS"] = "1"  # before the peers are imported
@@ -41,7 +43,7 @@ class Mode:
 
     code: str
     name: str
-    call: object  # without arguments; what it returns is dropped after the clock has stopped
+    make: object  # makes a call without arguments; what that returns is dropped after the clock has stopped
     ours: tuple
 
 
@@ -94,19 +96,24 @@ class Vesin:
         i, j, shifts = self.compute(calculator, "ijS")
         return len(expected) - int((sorted_keys(i, j, shifts) == expected).all(axis=1).sum()) if len(i) == len(expected) else len(i)
 
+    def reused(self, quantities, **options):
+        calculator = self.calculator(**options)
+        return lambda: self.compute(calculator, quantities)
+
+    def fresh(self, quantities, **options):
+        return lambda: (calculator := self.calculator(**options), self.compute(calculator, quantities))
+
     def modes(self):
         for order in ("any", "sorted"):
             for members in ("full", "half"):
                 options = {"sorted": order == "sorted", "full_list": members == "full"}
                 for quantities in ("ijSDd", "ij"):
-                    kept = self.calculator(**options)
-                    yield Mode("vesin", f"{order} {members} {quantities} reused", lambda k=kept, q=quantities: self.compute(k, q),
-                               (order, members, quantities, "reused"))
-                    yield Mode("vesin", f"{order} {members} {quantities} fresh",
-                               lambda o=options, q=quantities: (c := self.calculator(**o), self.compute(c, q)), (order, members, quantities, "fresh"))
+                    for age, make in (("reused", self.reused), ("fresh", self.fresh)):
+                        yield Mode("vesin", f"{order} {members} {quantities} {age}", partial(make, quantities, **options),
+                                   (order, members, quantities, age))
             # The particles do not move: vesin keeps its list, and only the distances are computed again.
-            kept = self.calculator(sorted=order == "sorted", skin=0.3)
-            yield Mode("vesin", f"{order} full ijSDd, list of skin 0.3 kept", lambda k=kept: self.compute(k, "ijSDd"), (order, "full", "ijSDd", "reused"))
+            yield Mode("vesin", f"{order} full ijSDd, list of skin 0.3 kept", partial(self.reused, "ijSDd", sorted=order == "sorted", skin=0.3),
+                       (order, "full", "ijSDd", "reused"))
 
 
 class Matscipy:
@@ -119,7 +126,8 @@ class Matscipy:
 
     def modes(self):
         for quantities in ("ijSDd", "ij"):
-            yield Mode("matscipy", f"sorted full {quantities} fresh", lambda q=quantities: self.list(q), ("sorted", "full", quantities, "fresh"))
+            yield Mode("matscipy", f"sorted full {quantities} fresh", lambda q=quantities: partial(self.list, q),
+                       ("sorted", "full", quantities, "fresh"))
 
 
 class Freud:
@@ -140,9 +148,8 @@ class Freud:
         return len(np.setxor1d(code(pairs[:, 0], pairs[:, 1]), code(expected[:, 0], expected[:, 1])))
 
     def modes(self):
-        query = self.query()
-        yield Mode("freud", "sorted full ijDd reused", lambda: self.list(query), ("sorted", "full", "ijDd", "reused"))
-        yield Mode("freud", "sorted full ijDd fresh", lambda: self.list(self.query()), ("sorted", "full", "ijDd", "fresh"))
+        yield Mode("freud", "sorted full ijDd reused", lambda: partial(self.list, self.query()), ("sorted", "full", "ijDd", "reused"))
+        yield Mode("freud", "sorted full ijDd fresh", lambda: lambda: self.list(self.query()), ("sorted", "full", "ijDd", "fresh"))
 
 
 PEERS = {"vesin": ("vesin", Vesin), "matscipy": ("matscipy.neighbours", Matscipy), "freud": ("freud", Freud)}
@@ -169,19 +176,17 @@ def check(ours, peers, folder):
     return len(expected), differing
 
 
-def compare(ours, modes, repetitions):
-    """The shortest times [s] of each mode, theirs and ours in turn."""
-    theirs, own = {}, {}
-    for _ in range(repetitions):
-        for mode in modes:
-            begin = time.perf_counter()
-            result = mode.call()
-            seconds = time.perf_counter() - begin
-            del result
-            theirs[mode] = min(seconds, theirs.get(mode, seconds))
-            seconds = float(ours.ask("time", *mode.ours, 1)[1])
-            own[mode.ours] = min(seconds, own.get(mode.ours, seconds))
-    return [(mode, theirs[mode], own[mode.ours]) for mode in modes]
+def compare(ours, mode, repetitions):
+    """The shortest times [s] of a mode, theirs and ours, called in turn. The first call of an object is not timed: it makes its memory."""
+    call = mode.make()
+    theirs, own = [], []
+    for _ in range(repetitions + 1):
+        begin = time.process_time()
+        result = call()
+        theirs.append(time.process_time() - begin)
+        del result
+        own.append(float(ours.ask("time", *mode.ours)[1]))
+    return min(theirs[1:]), min(own[1:])
 
 
 def run(options, missing):
@@ -196,8 +201,9 @@ def run(options, missing):
                 ours = Ours(options.timer, file, options.isa)
                 peers = {name: PEERS[name][1](module, positions, edge, options.cutoff) for name, module in modules.items() if module}
                 pairs, differing = check(ours, peers, Path(folder))
-                modes = [mode for peer in peers.values() for mode in peer.modes()]
-                for mode, theirs, own in compare(ours, modes, options.repetitions):
+                for mode in (mode for peer in peers.values() for mode in peer.modes()):
+                    print(f"N = {particles}, {order}: {mode.code} {mode.name}", file=sys.stderr)
+                    theirs, own = compare(ours, mode, options.repetitions)
                     each = pairs / 2 if mode.ours[1] == "half" else pairs
                     results.append({"particles": particles, "order": order, "code": mode.code, "mode": mode.name, "pairs": pairs,
                                     "differing": differing[mode.code], "ns_per_pair": 1e9 * theirs / each,
@@ -207,7 +213,7 @@ def run(options, missing):
 
 
 def print_table(results, missing):
-    print("Nanoseconds per pair, shortest of all calls, one thread; ratio: peer/lanescape")
+    print("Nanoseconds of the processor per pair, shortest of all calls, one thread: theirs, ours; ratio: peer/lanescape")
     group = None
     for row in results:
         if group != (row["particles"], row["order"]):

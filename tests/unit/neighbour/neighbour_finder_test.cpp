@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "every_isa.hpp"
+#include "neighbour/pair_rows.hpp"
 #include "refusal.hpp"
 
 namespace {
@@ -196,6 +197,20 @@ TEST_P(NeighbourFinderOnEveryIsa, FindsThePairsOfClustersFarApart) {
       EXPECT_GT(expected.size(), 100U);
       ASSERT_EQ(found(options, system), expected) << edge << " " << periodic;
     }
+}
+
+TEST_P(NeighbourFinderOnEveryIsa, SortsListsOfEveryLength) {
+  std::mt19937_64 engine(7);
+  for (const std::size_t count : {0U, 1U, 2U, 15U, 16U, 31U, 32U, 33U, 64U, 65U, 255U, 256U, 257U, 1000U}) {
+    std::vector<std::uint32_t> numbers(count), spare(count + 32);
+    for (std::size_t k = 0; k < count; ++k) numbers[k] = static_cast<std::uint32_t>(2000000 * k);
+    const std::vector<std::uint32_t> expected = numbers;
+    std::shuffle(numbers.begin(), numbers.end(), engine);
+    numbers.resize(count + 32, 5U);
+    sort_numbers(numbers.data(), count, spare.data(), kernel_table(GetParam()));
+    numbers.resize(count);
+    EXPECT_EQ(numbers, expected) << count;
+  }
 }
 
 TEST(NeighbourFinder, ReachesParticlesAtAnyFinitePlaceAlongOpenAxes) {
