@@ -76,9 +76,16 @@ def imported(name, missing):
         return None
 
 
-def sorted_keys(i, j, shifts):
-    keys = np.column_stack([i, j, shifts]).astype(np.int64)
-    return keys[np.lexsort(keys.T[::-1])]
+def keys_of(i, j, shifts, particles):
+    """A number for each pair, in rising order; shifts are below 64."""
+    keys = np.asarray(i, np.int64) * particles + np.asarray(j, np.int64)
+    for axis in range(3):
+        keys = 128 * keys + (np.asarray(shifts[:, axis], np.int64) + 64)
+    return np.sort(keys)
+
+
+def differing(keys, expected):
+    return int((keys != expected).sum()) if len(keys) == len(expected) else len(np.setxor1d(keys, expected))
 
 
 class Vesin:
@@ -93,8 +100,7 @@ class Vesin:
 
     def differing(self, expected):
         calculator = self.calculator()  # it owns the arrays
-        i, j, shifts = self.compute(calculator, "ijS")
-        return len(expected) - int((sorted_keys(i, j, shifts) == expected).all(axis=1).sum()) if len(i) == len(expected) else len(i)
+        return differing(keys_of(*self.compute(calculator, "ijS"), len(self.positions)), keys_of(*expected, len(self.positions)))
 
     def reused(self, quantities, **options):
         calculator = self.calculator(**options)
@@ -118,11 +124,11 @@ class Vesin:
 
 class Matscipy:
     def __init__(self, module, positions, edge, cutoff):
+        self.particles = len(positions)
         self.list = lambda quantities: module.neighbour_list(quantities, positions=positions, cell=np.diag([edge] * 3), pbc=[True] * 3, cutoff=cutoff)
 
     def differing(self, expected):
-        i, j, shifts = self.list("ijS")
-        return len(expected) - int((sorted_keys(i, j, shifts) == expected).all(axis=1).sum()) if len(i) == len(expected) else len(i)
+        return differing(keys_of(*self.list("ijS"), self.particles), keys_of(*expected, self.particles))
 
     def modes(self):
         for quantities in ("ijSDd", "ij"):
@@ -143,9 +149,9 @@ class Freud:
         return query.query(self.points, {"r_max": self.cutoff, "exclude_ii": True}).toNeighborList()
 
     def differing(self, expected):
-        pairs = np.asarray(self.list(self.query())[:]).astype(np.int64)
-        code = lambda i, j: i * len(self.points) + j  # noqa: E731
-        return len(np.setxor1d(code(pairs[:, 0], pairs[:, 1]), code(expected[:, 0], expected[:, 1])))
+        pairs, none = np.asarray(self.list(self.query())[:]), np.zeros((1, 3), np.int64)
+        particles = len(self.points)  # an image cannot be told from another: boxes are wider than two cutoffs
+        return len(np.setxor1d(keys_of(pairs[:, 0], pairs[:, 1], none, particles), keys_of(expected[0], expected[1], none, particles)))
 
     def modes(self):
         yield Mode("freud", "sorted full ijDd reused", lambda: partial(self.list, self.query()), ("sorted", "full", "ijDd", "reused"))
@@ -167,13 +173,14 @@ def check(ours, peers, folder):
     """How many pairs of each peer differ from ours. Raises Failed where they must not."""
     file = folder / "pairs"
     ours.ask("pairs", file)
-    expected = np.fromfile(file, dtype=np.int64).reshape(-1, 5)
-    differing = {}
+    rows = np.fromfile(file, dtype=np.int64).reshape(-1, 5)
+    expected = rows[:, 0], rows[:, 1], rows[:, 2:]
+    counts = {}
     for name, peer in peers.items():
-        differing[name] = int(peer.differing(expected))
-        if differing[name] and name not in SINGLE_PRECISION:
-            raise Failed(f"{name}: {differing[name]} of {len(expected)} pairs differ; nothing was timed")
-    return len(expected), differing
+        counts[name] = peer.differing(expected)
+        if counts[name] and name not in SINGLE_PRECISION:
+            raise Failed(f"{name}: {counts[name]} of {len(rows)} pairs differ; nothing was timed")
+    return len(rows), counts
 
 
 def compare(ours, mode, repetitions):
@@ -200,13 +207,13 @@ def run(options, missing):
                 np.concatenate([[edge, options.cutoff], positions.ravel()]).tofile(file)
                 ours = Ours(options.timer, file, options.isa)
                 peers = {name: PEERS[name][1](module, positions, edge, options.cutoff) for name, module in modules.items() if module}
-                pairs, differing = check(ours, peers, Path(folder))
+                pairs, counts = check(ours, peers, Path(folder))
                 for mode in (mode for peer in peers.values() for mode in peer.modes()):
                     print(f"N = {particles}, {order}: {mode.code} {mode.name}", file=sys.stderr)
                     theirs, own = compare(ours, mode, options.repetitions)
                     each = pairs / 2 if mode.ours[1] == "half" else pairs
                     results.append({"particles": particles, "order": order, "code": mode.code, "mode": mode.name, "pairs": pairs,
-                                    "differing": differing[mode.code], "ns_per_pair": 1e9 * theirs / each,
+                                    "differing": counts[mode.code], "ns_per_pair": 1e9 * theirs / each,
                                     "ours_ns_per_pair": 1e9 * own / each, "ratio": theirs / own})
                 ours.close()
     return results

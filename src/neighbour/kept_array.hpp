@@ -1,10 +1,10 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <memory>
 #include <type_traits>
+#include <utility>
 
 #include "core/aligned_array.hpp"
 
@@ -33,7 +33,6 @@ class KeptArray {
   const T* data() const { return memory_.get(); }
   T& operator[](std::size_t k) { return data()[k]; }
   const T& operator[](std::size_t k) const { return data()[k]; }
-  std::size_t memory() const { return memory_.get_deleter().capacity * sizeof(T); }  // [bytes]
 
  private:
   struct Free {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <new>
 
 #include "core/coordinate_checks.hpp"
@@ -125,9 +126,13 @@ void PairFinder::set_particles(std::span<const double> positions, const Point& e
     for (const auto& [i, j] : exclusions_) ++first_excluded_[static_cast<std::size_t>(i) + 1];
     for (std::size_t i = 0; i < particles; ++i) first_excluded_[i + 1] += first_excluded_[i];
   }
-  positions_.assign(positions.begin(), positions.end());
-  particle_species_.assign(species.begin(), species.end());
-  points_.sort(space_, positions_, particle_species_, cutoff_, greatest_of(positions_));
+  try {
+    positions_.assign(positions.begin(), positions.end());
+    particle_species_.assign(species.begin(), species.end());
+    points_.sort(space_, positions_, particle_species_, cutoff_, greatest_of(positions_));
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorCode::internal, fmt::format("no memory for {} particles and their images within {}", particles, cutoff_));
+  }
   is_ready_ = true;
 }
 
