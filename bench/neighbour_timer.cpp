@@ -1,4 +1,4 @@
-// NeighbourFinder for bench/peers/neighbours.py: neighbour_timer FILE [ISA], where FILE holds the edge of a cubic box, the cutoff
+// NeighbourFinder for bench/peers/neighbours.py: neighbour_timer FILE ISA, where FILE holds the edge of a cubic box, the cutoff
 // and positions as doubles. Each line on stdin is a command, each answer a line:
 //   time ORDER MEMBERS QUANTITIES AGE    sorted or any, full or half, letters of ijSDd, fresh or reused: the number of pairs and
 //   the
@@ -97,8 +97,8 @@ class Timer {
 
 int main(int count, char** words) {
   try {
-    if (count < 2 || count > 3) throw std::runtime_error("usage: neighbour_timer FILE [ISA]");
-    Timer timer(read(words[1]), count > 2 ? words[2] : "auto");
+    if (count != 3) throw std::runtime_error("usage: neighbour_timer FILE ISA");
+    Timer timer(read(words[1]), words[2]);
     for (std::string line; std::getline(std::cin, line);) std::cout << timer.answer(line) << std::endl;
   } catch (const std::exception& error) {
     std::cerr << "neighbour_timer: " << error.what() << '\n';
