@@ -1,6 +1,5 @@
 #include <lanescape/lanescape.hpp>
 
-
 #include "dispatch/isa.hpp"
 
 namespace lanescape {

@@ -3,13 +3,9 @@
 // What other programs link against, all of it. Lengths, energies and masses are in any consistent units; k_B = 1. Wherever a
 // function throws, it throws lanescape::Error with a code and one line saying what is wrong, where and what is allowed.
 
-#include <array>
-#include <cstddef>
-#include <span>
 #include <string>
 #include <vector>
 
-#include <lanescape/neighbours.hpp>
 #include <lanescape/version.h>
 #include <lanescape/dynamics.hpp>
 #include <lanescape/error.hpp>
@@ -17,6 +13,7 @@
 #include <lanescape/insertion.hpp>
 #include <lanescape/landscape.hpp>
 #include <lanescape/model.hpp>
+#include <lanescape/neighbours.hpp>
 #include <lanescape/path.hpp>
 #include <lanescape/potential.hpp>
 #include <lanescape/states.hpp>

@@ -39,7 +39,7 @@ class LANESCAPE_API NeighbourFinder {
   struct Options {
     // One cutoff, above 0; or species x species, symmetric, where 0 means that such pairs are never listed. At most 32 times the
     // shortest edge of a periodic axis.
-    std::vector<double> cutoffs;
+    std::vector<double> cutoffs{};
     std::array<bool, 3> periodic{true, true, true};
     std::array<double, 3> origin{};  // the box's corner; open axes have no use for it
     Members members = Members::full;
