@@ -5,7 +5,8 @@
 
 namespace lanescape {
 
-// Calls body(part) for each part below `parts`, on that many threads. An exception is rethrown once all threads have ended.
+// Calls body(part) for each part below `parts`, on that many threads; on one in a child that was forked after a call. An exception
+// is rethrown once all threads have ended.
 void run_on_threads(int parts, const std::function<void(int)>& body);
 
 // Does the same, but runs a single part without OpenMP. Divide work so that no result depends on the number of parts.
