@@ -37,7 +37,15 @@ if(NOT BUILD_SHARED_LIBS)
   set(LANESCAPE_PC_REQUIRES "fmt")
   set(LANESCAPE_PC_LIBS "${OpenMP_CXX_FLAGS} -lpthread")
 endif()
+# For C.
+lanescape_install_component(C lanescape_c)
+install(FILES ${PROJECT_SOURCE_DIR}/src/api/lanescape/lanescape.h ${PROJECT_SOURCE_DIR}/src/api/lanescape/dynamics.h
+              ${PROJECT_BINARY_DIR}/generated/lanescape/version.h
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lanescape COMPONENT C)
+
 file(RELATIVE_PATH LANESCAPE_PC_TO_PREFIX ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 string(REGEX REPLACE "/$" "" LANESCAPE_PC_TO_PREFIX "${LANESCAPE_PC_TO_PREFIX}")
 configure_file(${PROJECT_SOURCE_DIR}/cmake/lanescape.pc.in ${PROJECT_BINARY_DIR}/lanescape.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/lanescape.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT CXX)
+configure_file(${PROJECT_SOURCE_DIR}/cmake/lanescape-c.pc.in ${PROJECT_BINARY_DIR}/lanescape-c.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/lanescape-c.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT C)

@@ -25,7 +25,7 @@ STAGES = {
     "run": 9, "verification": 9,
     "api": 10, "capi": 10,
 }  # fmt: skip
-ABOVE_THE_API = {"capi"}  # sees the installed headers although it has their number
+ABOVE_THE_API = {"capi"}  # sees itself and the installed headers alone, as hosts do
 # Hosts catch what every stage throws, and verification calls what hosts declare.
 SHARED_VOCABULARY = {("src/core/error.hpp", "lanescape/error.hpp"), ("src/verification/host_kernel.cpp", "lanescape/host_kernel.h")}
 # dynamics: an event costs less than a virtual call would be worth, and event-driven dynamics is nothing but its kernels.
@@ -117,6 +117,8 @@ def refuse_in_src(relative, target):
         return refuse_in_installed_headers(relative, target)
     if stage not in STAGES:
         return f"src/{stage} is no stage: list it in STAGES"
+    if stage in ABOVE_THE_API and not (target.place == "api" or target.stage == stage or (target.place == "outside" and is_standard(target.name))):
+        return f"{stage} sees itself, the installed headers and the standard library"
     if target.place == "src":
         allowed = target.stage == stage or STAGES[target.stage] < STAGES[stage]
         lower = ", ".join(s for s in STAGES if STAGES[s] < STAGES[stage])
