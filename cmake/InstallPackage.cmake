@@ -2,8 +2,9 @@
 # prefix from their own location, so an installation can be moved.
 include(CMakePackageConfigHelpers)
 
+set(LANESCAPE_FORTRAN_SOURCE ${CMAKE_INSTALL_DATADIR}/lanescape/fortran/lanescape.f90)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/lanescape-config.cmake.in ${PROJECT_BINARY_DIR}/lanescape-config.cmake
-                              INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lanescape)
+                              INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lanescape PATH_VARS LANESCAPE_FORTRAN_SOURCE)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/lanescape-config-version.cmake COMPATIBILITY SameMinorVersion)
 
 # lanescape_install_config(<component>): with a component's own file, lanescape-<component in small letters>.cmake, what finds it.
@@ -37,7 +38,7 @@ if(NOT BUILD_SHARED_LIBS)
   set(LANESCAPE_PC_REQUIRES "fmt")
   set(LANESCAPE_PC_LIBS "${OpenMP_CXX_FLAGS} -lpthread")
 endif()
-# For C.
+# For C, and for Fortran with the module of bindings/fortran.
 lanescape_install_component(C lanescape_c)
 install(FILES ${PROJECT_SOURCE_DIR}/src/api/lanescape/lanescape.h ${PROJECT_SOURCE_DIR}/src/api/lanescape/dynamics.h
               ${PROJECT_BINARY_DIR}/generated/lanescape/version.h

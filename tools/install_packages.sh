@@ -3,7 +3,7 @@
 set -eu
 
 packages="
-  g++ cmake ninja-build pkg-config
+  g++ gfortran cmake ninja-build pkg-config
   libxsimd-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libhdf5-dev librandom123-dev libkissfft-dev
   libgtest-dev libbenchmark-dev valgrind
   python3 python3-numpy python3-scipy python3-matplotlib python3-ase

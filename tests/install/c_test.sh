@@ -1,6 +1,6 @@
 #!/bin/sh
 # Installs the component C of a finished build into a temporary folder, moves it elsewhere, and builds and runs docs/snippets/hosts
-# against it: a project in C alone, and commands with pkg-config.
+# against it: projects in C and in Fortran alone, and commands with pkg-config.
 #
 # Usage: c_test.sh BUILD_DIR SOURCE_DIR
 set -eu
@@ -47,6 +47,7 @@ library=$(find "$prefix" -name liblanescape_c.so)
 readelf -d "$library" | grep -q "SONAME.*liblanescape_c.so.${version%.*}]" || fail "the library for C has no interface version"
 
 languages=c
+if command -v gfortran >/dev/null; then languages="c fortran"; else echo "Fortran: skipped, gfortran is not installed"; fi
 for language in $languages; do
   logged "configure_$language" cmake -S "$hosts/$language" -B "$work/$language" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release
   ! grep -q '^CMAKE_CXX_COMPILER:' "$work/$language/CMakeCache.txt" || fail "$language: a C++ compiler is looked for"

@@ -1,0 +1,16 @@
+! The module for Fortran programs. Positions, forces and velocities are arrays (3, N); particles and species are numbered from 1,
+! though messages count from 0. Procedures have optional arguments stat, 0 for success and lanescape_bad_input or another for
+! failure, and errmsg, which says what is wrong; a failure without stat ends the program with the message. Objects free what they
+! hold when they go out of scope. Lengths, energies and masses are in any consistent units; k_B = 1.
+module lanescape
+  use lanescape_objects, only: lanescape_bad_input, lanescape_callback_error, lanescape_callback_failed, &
+    lanescape_goal_not_reached, lanescape_internal, lanescape_ok, lanescape_version
+  use lanescape_models
+  use lanescape_potentials
+  use lanescape_particles
+  use lanescape_insertion
+  use lanescape_landscapes, only: lanescape_landscape
+  use lanescape_paths
+  use lanescape_trajectories
+  implicit none
+end module lanescape
