@@ -9,6 +9,7 @@
 #include "configuration/model_traits.hpp"
 #include "core/error.hpp"
 #include "core/float_environment.hpp"
+#include "core/option_checks.hpp"
 #include "core/overloaded.hpp"
 #include "core/run_monitor.hpp"
 #include "dynamics/end_points.hpp"
@@ -69,7 +70,7 @@ EndPointOptions soft_options(const AnyModel& model, const Start& start, const En
     options.melt_steps = options.cooling_steps = options.check_steps = options.settle_steps = settings.equilibration;
   if (settings.between != 0) options.between_steps = settings.between;
   options.seed = settings.seed;
-  options.threads = settings.threads;
+  options.threads = checked_threads(settings.threads);
   options.precision = parse_precision(settings.precision);
   options.check();
   return options;

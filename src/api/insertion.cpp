@@ -6,6 +6,7 @@
 #include "api/host_arrays.hpp"
 #include "core/coordinate_checks.hpp"
 #include "core/error.hpp"
+#include "core/option_checks.hpp"
 #include "dispatch/isa.hpp"
 #include "insertion/insertion.hpp"
 #include "interaction/pair/probe_field.hpp"
@@ -91,12 +92,14 @@ void Inserter::energies(std::span<const double> positions, std::span<double> ene
 
 std::vector<InsertedParticle> Inserter::find(const InsertionSettings& settings, std::size_t count) {
   const InsertionOptions options = options_of(settings, implementation_->field.box());
-  return to_public(find_places(implementation_->field, options, count, implementation_->history, settings.threads));
+  return to_public(
+      find_places(implementation_->field, options, count, implementation_->history, checked_threads(settings.threads)));
 }
 
 std::vector<InsertedParticle> Inserter::insert(const InsertionSettings& settings, std::size_t count) {
   const InsertionOptions options = options_of(settings, implementation_->field.box());
-  return to_public(insert_particles(implementation_->field, options, count, implementation_->history, settings.threads));
+  return to_public(
+      insert_particles(implementation_->field, options, count, implementation_->history, checked_threads(settings.threads)));
 }
 
 void Inserter::add(const std::array<double, 3>& position) {

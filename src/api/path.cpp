@@ -13,6 +13,7 @@
 #include "core/coordinate_checks.hpp"
 #include "core/error.hpp"
 #include "core/float_environment.hpp"
+#include "core/option_checks.hpp"
 #include "run/path_search.hpp"
 
 namespace lanescape {
@@ -42,7 +43,7 @@ PathRunOptions options_of(const PathSettings& settings, const AnyModel& model) {
   options.landscape_energy = settings.landscape_energy;
   options.reverse = settings.reverse;
   options.finder = {settings.max_steps, settings.patience, settings.frames};
-  options.threads = settings.threads;
+  options.threads = checked_threads(settings.threads);
   options.precision = parse_precision(settings.precision);
   options.check(model);
   check_method(*options.method, model);

@@ -8,6 +8,7 @@
 #include "api/host_arrays.hpp"
 #include "configuration/model_traits.hpp"
 #include "core/error.hpp"
+#include "core/option_checks.hpp"
 #include "core/overloaded.hpp"
 #include "dispatch/isa.hpp"
 #include "interaction/pair/pair_interaction.hpp"
@@ -47,7 +48,7 @@ struct Potential::Implementation {
         options(std::move(with)),
         arrays(layout_of(pair_model(model), species, options.diameters)),
         interaction(pair_model(model), box, arrays.layout(), kernel_table(choose_isa(options.instruction_set)),
-                    {.threads = options.threads, .precision = parse_precision(options.precision)}) {}
+                    {.threads = checked_threads(options.threads), .precision = parse_precision(options.precision)}) {}
 
   Model model;
   std::vector<int> species;

@@ -8,6 +8,7 @@
 #include "api/access.hpp"
 #include "api/host_arrays.hpp"
 #include "core/error.hpp"
+#include "core/option_checks.hpp"
 #include "dispatch/isa.hpp"
 #include "interaction/state/state_mixture.hpp"
 
@@ -129,7 +130,7 @@ struct StateSystem::Implementation {
         box{box_given},
         arrays(layout_in(state_model(model), species, box)),
         interaction(parts_of(state_model(model), species, options), box, arrays.layout(),
-                    kernel_table(choose_isa(options.instruction_set)), {.threads = options.threads}) {}
+                    kernel_table(choose_isa(options.instruction_set)), {.threads = checked_threads(options.threads)}) {}
 
   const AlignedArray& positions(std::span<const double> host) {
     check_positions(host.size(), species.size());

@@ -22,4 +22,9 @@ void check_at_least_one(const char* option, std::uint64_t value) {
   if (value == 0) throw_bad_input(fmt::format("{} must be at least 1", option));
 }
 
+int checked_threads(int threads) {
+  if (threads < 1 || threads > 4096) throw_bad_input(fmt::format("{} threads are not allowed: from 1 to 4096", threads));
+  return threads;
+}
+
 }  // namespace lanescape

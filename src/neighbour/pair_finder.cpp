@@ -10,6 +10,7 @@
 #include "core/coordinate_checks.hpp"
 #include "core/error.hpp"
 #include "core/float_environment.hpp"
+#include "core/option_checks.hpp"
 #include "core/parallel.hpp"
 
 namespace lanescape {
@@ -49,7 +50,7 @@ std::size_t species_of(const std::vector<double>& cutoffs) {
 PairFinder::PairFinder(PairFinderOptions options, const kernels::KernelTable& table)
     : options_(std::move(options)), table_(&table), species_(species_of(options_.cutoffs)) {
   cutoff_ = *std::max_element(options_.cutoffs.begin(), options_.cutoffs.end());
-  if (options_.threads < 1) throw_bad_input(fmt::format("{} threads are not allowed: at least 1 is needed", options_.threads));
+  checked_threads(options_.threads);
   if (options_.segments && !options_.sorted)
     throw_bad_input("segments of unsorted pairs are not allowed: only sorted pairs have them");
   for (std::size_t axis = 0; axis < 3; ++axis)

@@ -158,6 +158,10 @@ static void end_points_are_made(void) {
   settings.progress_user = NULL;
   CHECK(lanescape_make_end_points(model, particles, species, positions, box, NULL, &settings, &ends) == LANESCAPE_GOAL_NOT_REACHED);
   CHECK(strstr(lanescape_last_error(), "interrupted") != NULL && ends == NULL);
+  lanescape_model* soft = named_model("lennard-jones");
+  settings.threads = 0;
+  REFUSED(lanescape_make_end_points(soft, particles, species, positions, box, NULL, &settings, &ends), "0 threads are not allowed");
+  OK(lanescape_model_destroy(soft));
   settings.size = 2;
   REFUSED(lanescape_make_end_points(model, particles, species, positions, box, NULL, &settings, &ends), "of size 2 is not known");
   REFUSED(lanescape_make_end_points(model, particles, NULL, positions, box, NULL, NULL, &ends), "argument species is NULL");

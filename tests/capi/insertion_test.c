@@ -75,6 +75,9 @@ static void bad_input_is_refused(lanescape_model* model, lanescape_inserter* ins
   REFUSED(lanescape_inserter_energy(inserter, here, NULL, NULL), "argument energy is NULL");
   REFUSED(lanescape_inserter_energies(inserter, 1, NULL, &energy), "argument positions is NULL");
   REFUSED(lanescape_inserter_energies(inserter, 1, here, NULL), "argument energies is NULL");
+  settings.threads = -3;
+  REFUSED(lanescape_inserter_find(inserter, &settings, 1, &nothing), "-3 threads are not allowed");
+  settings.threads = 1;
   settings.method = "magic";
   REFUSED(lanescape_inserter_find(inserter, &settings, 1, &nothing), "magic");
   REFUSED(lanescape_inserter_insert(inserter, NULL, 1, NULL), "argument insertions is NULL");

@@ -108,6 +108,9 @@ static void bad_paths_are_refused(void) {
   lanescape_path* path = NULL;
   lanescape_path_settings settings;
   OK(lanescape_path_settings_init(&settings, sizeof settings));
+  settings.threads = 0;
+  REFUSED(lanescape_find_path_on(&landscape, start, finish, NULL, &settings, &path), "0 threads are not allowed");
+  settings.threads = 1;
   settings.method = "magic";
   REFUSED(lanescape_find_path_on(&landscape, start, finish, NULL, &settings, &path), "magic");
   settings.size = 4;

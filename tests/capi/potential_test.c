@@ -157,6 +157,11 @@ static void bad_systems_are_refused(void) {
   REFUSED(lanescape_potential_create(model, SIZE_MAX, two, cube, NULL, &potential), "argument species would have");
   lanescape_potential_options options;
   OK(lanescape_potential_options_init(&options, sizeof options));
+  for (int k = 0; k < 3; ++k) {
+    options.threads = k == 2 ? 100000000 : -k;
+    REFUSED(lanescape_potential_create(model, 2, two, cube, &options, &potential), "threads are not allowed: from 1 to 4096");
+  }
+  options.threads = 1;
   options.precision = "half";
   REFUSED(lanescape_potential_create(model, 2, two, cube, &options, &potential), "unknown precision 'half'");
   options.size = 0;

@@ -92,6 +92,9 @@ static void bad_searches_are_refused(void) {
   REFUSED(lanescape_neighbours_create(&options, NULL), "argument neighbours is NULL");
   REFUSED(lanescape_neighbours_create(NULL, &neighbours), "argument options is NULL");
   REFUSED(lanescape_neighbour_options_init(&options, 1), "of size 1 is not known");
+  options.threads = 0;
+  REFUSED(lanescape_neighbours_create(&options, &neighbours), "0 threads are not allowed");
+  options.threads = 1;
   options.cutoff = -1.0;
   REFUSED(lanescape_neighbours_create(&options, &neighbours), "-1");
 }

@@ -319,7 +319,7 @@ TEST(NeighbourFinder, RefusesOptionsThatMakeNoSense) {
   says({.cutoffs = {1.0, -2.0, -2.0, 1.0}}, "or 0 for species");
   says({.cutoffs = {0.0, 0.0, 0.0, 0.0}}, "one must be above 0");
   says({.cutoffs = {1.0}, .origin = {0.0, nan, 0.0}}, "y coordinate nan of the box's origin");
-  says({.cutoffs = {1.0}, .threads = 0}, "at least 1");
+  says({.cutoffs = {1.0}, .threads = 0}, "0 threads are not allowed: from 1 to 4096");
   says({.cutoffs = {1.0}, .isa = "avx9"}, "avx9");
   says({.cutoffs = {1.0}, .order = Order::any, .quantities = {.segments = true}}, "only sorted pairs");
 }
