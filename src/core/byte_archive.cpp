@@ -7,6 +7,31 @@
 #include "core/error.hpp"
 
 namespace lanescape {
+namespace {
+
+// FNV-1a, 64 bits.
+std::uint64_t checksum(std::string_view bytes) {
+  std::uint64_t sum = 0xcbf29ce484222325;
+  for (const char byte : bytes) sum = (sum ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
+  return sum;
+}
+
+}  // namespace
+
+std::string ByteWriter::bytes() const {
+  const std::uint64_t sum = checksum(bytes_);
+  return bytes_ + std::string(reinterpret_cast<const char*>(&sum), sizeof sum);
+}
+
+ByteReader::ByteReader(std::string_view bytes) {
+  std::uint64_t sum = 0;
+  if (bytes.size() >= sizeof sum) {
+    rest_ = bytes.substr(0, bytes.size() - sizeof sum);
+    std::memcpy(&sum, bytes.data() + rest_.size(), sizeof sum);
+  }
+  if (bytes.size() < sizeof sum || sum != checksum(rest_))
+    throw_bad_input("state: its bytes were cut or changed: those that were saved are needed");
+}
 
 std::string_view ByteReader::take(std::size_t count, std::string_view name) {
   if (rest_.size() < count)

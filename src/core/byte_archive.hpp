@@ -10,7 +10,7 @@
 namespace lanescape {
 
 // A state as bytes in memory, for hosts that keep it in files of their own. Fields lie one after the other with their names, in
-// this machine's byte order.
+// this machine's byte order, and a checksum at the end.
 class ByteWriter final : public Archive {
  public:
   bool reading() const override { return false; }
@@ -23,7 +23,7 @@ class ByteWriter final : public Archive {
   void enter(std::string_view) override {}
   void leave() override {}
 
-  const std::string& bytes() const { return bytes_; }
+  std::string bytes() const;
 
  private:
   template <class T>
@@ -41,11 +41,11 @@ class ByteWriter final : public Archive {
   std::string bytes_;
 };
 
-// Throws Error(bad_input) for bytes that are no state of what reads them. Arrays keep their sizes: an object reads the state of one
-// like itself.
+// Throws Error(bad_input) for bytes that are no state of what reads them, before anything is read if they were changed. Arrays keep
+// their sizes: an object reads the state of one like itself.
 class ByteReader final : public Archive {
  public:
-  explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
+  explicit ByteReader(std::string_view bytes);
 
   bool reading() const override { return true; }
   void field(std::string_view name, double& value) override { get_number(name, value); }
