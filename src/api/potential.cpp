@@ -7,12 +7,14 @@
 #include "api/access.hpp"
 #include "api/host_arrays.hpp"
 #include "configuration/model_traits.hpp"
+#include "configuration/space_order.hpp"
 #include "core/error.hpp"
 #include "core/option_checks.hpp"
 #include "core/overloaded.hpp"
 #include "dispatch/isa.hpp"
 #include "interaction/pair/pair_interaction.hpp"
 #include "interaction/pair/pair_moves.hpp"
+#include "neighbour/neighbour_list.hpp"
 
 namespace lanescape {
 LANESCAPE_ABI_BEGIN
@@ -27,15 +29,11 @@ const PairModel& pair_model(const Model& model) {
   return *pairs;
 }
 
-void check_diameters(const PairModel& model, std::size_t given, std::size_t particles) {
-  if (model.form->has_diameters) check_room("diameters", given, particles);
-  if (!model.form->has_diameters && given != 0)
+const std::vector<double>& checked_diameters(const PairModel& model, const std::vector<double>& given, std::size_t particles) {
+  if (model.form->has_diameters) check_room("diameters", given.size(), particles);
+  if (!model.form->has_diameters && !given.empty())
     throw_bad_input(fmt::format("model {} has no diameters of particles: none are allowed", model.name));
-}
-
-ParticleLayout layout_of(const PairModel& model, const std::vector<int>& species, const std::vector<double>& diameters) {
-  check_diameters(model, diameters.size(), species.size());
-  return ParticleLayout::in_users_order({{}, species, {}, {}, diameters}, model.species.size());
+  return given;
 }
 
 }  // namespace
@@ -46,17 +44,53 @@ struct Potential::Implementation {
         species(species_given.begin(), species_given.end()),
         box{box_given},
         options(std::move(with)),
-        arrays(layout_of(pair_model(model), species, options.diameters)),
-        interaction(pair_model(model), box, arrays.layout(), kernel_table(choose_isa(options.instruction_set)),
-                    {.threads = checked_threads(options.threads), .precision = parse_precision(options.precision)}) {}
+        order(species, checked_diameters(pair_model(model), options.diameters, species.size()), model.species_count()),
+        arrays(order.layout()),
+        interaction(make()) {}
+
+  PairInteraction make() const {
+    return {pair_model(model),
+            box,
+            arrays.layout(),
+            kernel_table(choose_isa(options.instruction_set)),
+            {.threads = checked_threads(options.threads), .precision = parse_precision(options.precision)}};
+  }
+
+  // Positions in the order of the interaction, which is made anew where the order in space has changed.
+  const AlignedArray& slots_of(const Vectors<const double>& host) {
+    if (species.size() >= ParticleLayout::sorted_from) {
+      check_positions(3 * host.count, species.size());
+      const NeighbourList* list = interaction.list();
+      if (order.renew(interleaved(host), box, list != nullptr ? list->rebuilds() : 0)) {
+        arrays = HostArrays(order.layout());
+        interaction = make();
+        if (!exclusions.empty()) interaction.set_exclusions(exclusions);
+      }
+    }
+    return arrays.positions(host);
+  }
+
+  std::span<const double> interleaved(const Vectors<const double>& host) {
+    if (host.stride == 3 && host.y == host.x + 1 && host.z == host.x + 2) return {host.x, 3 * host.count};
+    copy.resize(3 * host.count);
+    for (std::size_t i = 0; i < host.count; ++i) {
+      const auto k = static_cast<std::ptrdiff_t>(i) * host.stride;
+      copy[3 * i] = host.x[k];
+      copy[3 * i + 1] = host.y[k];
+      copy[3 * i + 2] = host.z[k];
+    }
+    return copy;
+  }
 
   Model model;
   std::vector<int> species;
   Box box;
   Options options;
+  SpaceOrder order;
   HostArrays arrays;
   PairInteraction interaction;
   std::vector<std::array<std::size_t, 2>> exclusions{};
+  std::vector<double> copy{};  // of positions in arrays of their own
 };
 
 Potential::Potential(Model model, std::span<const int> species, const std::array<double, 3>& box)
@@ -91,16 +125,15 @@ void Potential::set_exclusions(std::span<const std::array<std::size_t, 2>> pairs
 
 double Potential::energy(std::span<const double> positions) {
   check_positions(positions.size(), particles());
-  return implementation_->interaction.energy(implementation_->arrays.positions(Vectors<const double>::interleaved(positions)));
+  return implementation_->interaction.energy(implementation_->slots_of(Vectors<const double>::interleaved(positions)));
 }
 
 double Potential::energy_and_gradient(std::span<const double> positions, std::span<double> gradient) {
   check_positions(positions.size(), particles());
   check_room("gradient components", gradient.size(), positions.size());
+  const AlignedArray& slots = implementation_->slots_of(Vectors<const double>::interleaved(positions));
   HostArrays& arrays = implementation_->arrays;
-  const double energy = implementation_->interaction
-                            .energy_and_gradient(arrays.positions(Vectors<const double>::interleaved(positions)), arrays.gradient())
-                            .energy;
+  const double energy = implementation_->interaction.energy_and_gradient(slots, arrays.gradient()).energy;
   arrays.write_gradient(gradient);
   return energy;
 }
@@ -118,8 +151,9 @@ Evaluation Potential::evaluate(std::span<const double> positions, const Outputs&
 }
 
 Evaluation Potential::evaluate(const Vectors<const double>& positions, const Outputs& outputs) {
-  auto& [model, species, box, options, arrays, interaction, exclusions] = *implementation_;
-  const AlignedArray& slots = arrays.positions(positions);
+  const AlignedArray& slots = implementation_->slots_of(positions);
+  HostArrays& arrays = implementation_->arrays;
+  PairInteraction& interaction = implementation_->interaction;
   if (!outputs.energies.empty()) {
     interaction.energies(slots, arrays.energies());
     arrays.write_energies(outputs.energies);
@@ -127,12 +161,12 @@ Evaluation Potential::evaluate(const Vectors<const double>& positions, const Out
   const bool forces = outputs.forces.x != nullptr;
   if (!forces && !outputs.stress) return {.energy = interaction.energy(slots)};
   // Stresses are in double precision always; the rest has the precision that was asked for.
-  const bool mixed = options.precision == to_string(Precision::mixed);
+  const bool mixed = options().precision == to_string(Precision::mixed);
   Evaluation result;
   if (outputs.stress) {
     const auto e = interaction.energy_and_stress(slots, arrays.gradient());
     result = {e.energy, e.virial, {}};
-    for (std::size_t k = 0; k < 6; ++k) result.stress[k] = -e.virial_tensor[k] / box.volume();
+    for (std::size_t k = 0; k < 6; ++k) result.stress[k] = -e.virial_tensor[k] / implementation_->box.volume();
   }
   if (!outputs.stress || mixed) {
     const auto e = interaction.energy_and_gradient(slots, arrays.gradient());
@@ -156,9 +190,11 @@ ParticleMoves::ParticleMoves(const Model& model, std::span<const int> species, s
   const PairModel& pairs = pair_model(model);
   check_positions(positions.size(), species.size());
   check_species(species, pairs.species.size());
-  check_diameters(pairs, options.diameters.size(), species.size());
-  const Configuration fluid{
-      Box{box}, {species.begin(), species.end()}, {positions.begin(), positions.end()}, {}, options.diameters};
+  const Configuration fluid{Box{box},
+                            {species.begin(), species.end()},
+                            {positions.begin(), positions.end()},
+                            {},
+                            checked_diameters(pairs, options.diameters, species.size())};
   implementation_ =
       std::make_unique<Implementation>(Implementation{PairMoves(pairs, fluid, kernel_table(choose_isa(options.instruction_set)))});
 }

@@ -49,6 +49,9 @@ struct Evaluation {
 // The potential energy of a soft model in a periodic orthorhombic box, evaluated by the vector kernels. Not thread-safe: one
 // object per thread. It keeps its memory: after the first call of a kind no call allocates, except where a neighbour list grows.
 //
+// From some thousand particles on it keeps an order of its own, that of the particles in space, and follows them when they diffuse
+// away. This order and the neighbour list follow from all positions before: the last bits of results do too.
+//
 // Results do not depend on the caller's floating-point environment: rounding mode, traps and flushing to zero are set aside during
 // a call. Two particles at one place give an energy and forces that are not finite.
 class LANESCAPE_API Potential final : public Landscape {

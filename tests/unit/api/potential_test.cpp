@@ -10,6 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "configuration/particle_layout.hpp"
+#include "dispatch/isa.hpp"
+#include "interaction/pair/pair_interaction.hpp"
 #include "io/extended_xyz.hpp"
 #include "refusal.hpp"
 #include "verification/reference_bridge.hpp"
@@ -166,6 +169,35 @@ TEST(ParticleMoves, ChangeTheEnergyAsFullEvaluationsSay) {
   }
   EXPECT_TRUE(std::equal(positions.begin(), positions.end(), moves.positions().begin()));
   EXPECT_EQ(refusal([&] { moves.energy_change(45, {}); }), "particle 45 is not allowed: there are 45, numbered from 0");
+}
+
+TEST(Potential, OfManyParticlesTakesThemInAnyOrder) {
+  const Model model = Model::named("kob-andersen");
+  const Start start = make_start(model, 2048, 1.2);
+  std::vector<std::size_t> shuffled(2048);
+  for (std::size_t k = 0; k < shuffled.size(); ++k) shuffled[k] = (k * 773) % 2048;
+  std::vector<int> species;
+  std::vector<double> positions, forces(3 * 2048), x, y, z;
+  for (const std::size_t i : shuffled) {
+    species.push_back(start.species[i]);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      positions.push_back(start.positions[3 * i + axis] + 0.05 * std::sin(static_cast<double>(3 * i + axis)));
+  }
+  Potential potential(model, species, start.box), copy = potential;
+  const PairModel pairs = kob_andersen();
+  const ParticleLayout layout(species, 2);
+  PairInteraction interaction(pairs, Box{start.box}, layout, kernel_table(choose_isa("auto")));
+  AlignedArray gradient(layout.dimension(), 0.0);
+  const double energy = interaction.energy_and_gradient(layout.to_slots(positions), gradient).energy;
+  EXPECT_NEAR(potential.energy_and_forces(positions, forces), energy, 1e-11 * std::fabs(energy));
+  const std::vector<double> slopes = layout.to_user(gradient);
+  for (std::size_t k = 0; k < forces.size(); ++k) EXPECT_NEAR(forces[k], -slopes[k], 1e-9);
+  for (std::size_t i = 0; i < 2048; ++i) {
+    x.push_back(positions[3 * i]);
+    y.push_back(positions[3 * i + 1]);
+    z.push_back(positions[3 * i + 2]);
+  }
+  EXPECT_EQ(copy.evaluate(Vectors<const double>::separate(x, y, z), {}).energy, potential.energy(positions));
 }
 
 TEST(Potential, CanBeMovedAndCopied) {
