@@ -1,4 +1,5 @@
 #include <lanescape/path.hpp>
+#include <lanescape/potential.hpp>
 
 #include <fmt/format.h>
 
@@ -78,6 +79,18 @@ Path to_public(PathResult found, double seconds) {
   return path;
 }
 
+// Whether paths on it are those of its model, which go without a host's arrays.
+bool is_its_model(const Potential& potential) {
+  return !potential.has_exclusions() && mixture_of(detail::Access::of(potential.model())).has_equal_masses();
+}
+
+PathSettings with_options_of(const Potential& potential, PathSettings settings) {
+  settings.threads = potential.options().threads;
+  settings.precision = potential.options().precision;
+  settings.instruction_set = potential.options().instruction_set;
+  return settings;
+}
+
 Path search(const SearchSetup& setup, const Progress& progress) {
   const auto began = std::chrono::steady_clock::now();
   PathResult found = one_way(setup, progress);
@@ -110,6 +123,10 @@ Path find_path(const Model& model, std::span<const int> species, const std::arra
 
 Path find_path(Landscape& landscape, std::span<const double> start, std::span<const double> finish, const PathSettings& settings,
                std::span<const double> masses) {
+  if (const auto* potential = dynamic_cast<const Potential*>(&landscape);
+      potential != nullptr && masses.empty() && is_its_model(*potential))
+    return find_path(potential->model(), potential->species(), potential->box(), start, finish,
+                     with_options_of(*potential, settings), potential->options().diameters);
   check_positions(start.size(), landscape.particles());
   check_positions(finish.size(), landscape.particles());
   check_finite_particles(start);

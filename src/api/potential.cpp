@@ -123,6 +123,8 @@ void Potential::set_exclusions(std::span<const std::array<std::size_t, 2>> pairs
   implementation_->exclusions.assign(pairs.begin(), pairs.end());
 }
 
+bool Potential::has_exclusions() const { return !implementation_->exclusions.empty(); }
+
 double Potential::energy(std::span<const double> positions) {
   check_positions(positions.size(), particles());
   return implementation_->interaction.energy(implementation_->slots_of(Vectors<const double>::interleaved(positions)));

@@ -53,8 +53,9 @@ struct Path {
 LANESCAPE_API Path find_path(const Model& model, std::span<const int> species, const std::array<double, 3>& box,
                              std::span<const double> start, std::span<const double> finish, const PathSettings& settings,
                              std::span<const double> diameters = {});
-// On a landscape of the host's own. `masses`: one per particle, or empty for equal ones. Steps are in the landscape's unit of
-// length. An exception of the landscape ends the search and passes through.
+// On a landscape of the host's own. On a Potential with its model's equal masses it is the path of that model, with the potential's
+// threads, precision and instruction set, and unit of length. `masses`: one per particle, or empty for equal ones. Steps are in the
+// landscape's unit of length. An exception of the landscape ends the search and passes through.
 LANESCAPE_API Path find_path(Landscape& landscape, std::span<const double> start, std::span<const double> finish,
                              const PathSettings& settings, std::span<const double> masses = {});
 

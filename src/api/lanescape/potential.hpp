@@ -84,6 +84,7 @@ class LANESCAPE_API Potential final : public Landscape {
   // Pairs of particles that do not interact, such as bonded ones, in place of those before. Only the nearest image of a pair is
   // left out. Over all pairs (small systems with images = minimum) they are subtracted: 1e-14 of their own energy stays.
   void set_exclusions(std::span<const std::array<std::size_t, 2>> pairs);
+  bool has_exclusions() const;
 
   // Positions x0 y0 z0 x1 ..., 3N of them, wrapped or not. Throws Error(bad_input) if the length is not 3N or a coordinate is not
   // finite.

@@ -53,10 +53,25 @@ TEST(FindPath, OfAModelIsThePathOfTheRun) {
                 of_the_run(lennard_jones(), method));
 }
 
+// A potential whose nature the finder cannot see.
+class OfAHost final : public Landscape {
+ public:
+  std::size_t particles() const override { return potential_.particles(); }
+  double energy(std::span<const double> r) override { return potential_.energy(r); }
+  double energy_and_gradient(std::span<const double> r, std::span<double> gradient) override {
+    return potential_.energy_and_gradient(r, gradient);
+  }
+
+ private:
+  Potential potential_{Model::named("lennard-jones"), two, cube};
+};
+
 TEST(FindPath, OnAHostsLandscapeIsThatOfTheModelBehindIt) {
   Potential potential(Model::named("lennard-jones"), two, cube);
+  OfAHost host;
   for (const char* method : {"contour", "escape"})
-    expect_same(find_path(potential, start, finish, {.method = method}), of_the_run(lennard_jones(), method));
+    for (Landscape* landscape : {static_cast<Landscape*>(&potential), static_cast<Landscape*>(&host)})
+      expect_same(find_path(*landscape, start, finish, {.method = method}), of_the_run(lennard_jones(), method));
 }
 
 TEST(FindPath, OfHardSpheresAvoidsOverlaps) {
