@@ -39,6 +39,16 @@ cmake --build "$work/build" >"$work/build.log" 2>&1 || { cat "$work/build.log"; 
 check_host "$work/build/host" CMake
 ! grep -iE '^(hdf5|tomlplusplus|kissfft|xsimd)' "$work/build/CMakeCache.txt" || fail "a host looks for what only the library's build needs"
 
+# What docs/HOSTS.md shows for C++.
+documented=$2/docs/snippets/hosts/cpp
+check_documented() {
+  answer=$("$1") || fail "$2: the program fails: $answer"
+  case $answer in "V = -"* | "reached, length 4."*) echo "$2: $answer" ;; *) fail "$2: the program says '$answer'" ;; esac
+}
+configure "$documented" documented
+cmake --build "$work/documented" >"$work/documented.log" 2>&1 || { cat "$work/documented.log"; fail "docs/HOSTS.md"; }
+for program in energy landscape; do check_documented "$work/documented/$program" "docs/HOSTS.md, $program"; done
+
 description=$(find "$prefix" -name lanescape.pc)
 [ -n "$description" ] || fail "lanescape.pc is not installed"
 if command -v pkg-config >/dev/null; then
@@ -56,6 +66,11 @@ if command -v pkg-config >/dev/null; then
     LD_LIBRARY_PATH=$(pkg-config --variable=libdir lanescape) check_host "$work/$name" "$name"
   }
   run_host pkg-config "$cxx"
+  if [ -z "$sanitizers" ]; then
+    cp -r "$documented" "$work/commands"
+    (cd "$work/commands" && ./build.sh >"$work/commands.log" 2>&1) || { cat "$work/commands.log"; fail "docs/HOSTS.md, pkg-config"; }
+    LD_LIBRARY_PATH=$(pkg-config --variable=libdir lanescape) check_documented "$work/commands/energy" "docs/HOSTS.md, pkg-config"
+  fi
   run_host lto "$cxx" -flto -O2
   if [ -z "$sanitizers" ]; then
     for other in g++ clang++-19; do

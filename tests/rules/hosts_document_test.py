@@ -11,7 +11,7 @@ FILES = {"c": "*.c", "cmake": "CMakeLists.txt", "cpp": "*.cpp", "fortran": "*.f9
 class HostsDocument(unittest.TestCase):
     def test_every_block_is_in_a_file(self):
         blocks = re.findall(r"^```(\w+)\n(.*?)^```", (DOCS / "HOSTS.md").read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
-        self.assertGreaterEqual({language for language, _ in blocks}, {"c", "cmake", "fortran", "sh"})
+        self.assertGreaterEqual({language for language, _ in blocks}, {"c", "cmake", "cpp", "fortran", "sh"})
         for language, block in blocks:
             self.assertIn(language, FILES)
             files = sorted((DOCS / "snippets" / "hosts").rglob(FILES[language]))
