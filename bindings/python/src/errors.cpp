@@ -1,0 +1,22 @@
+#include <nanobind/nanobind.h>
+
+#include <lanescape/error.hpp>
+
+#include "module.hpp"
+
+namespace lanescape::python {
+
+// lanescape.errors has the classes of exceptions: bad input is a ValueError, the rest a RuntimeError.
+void bind_errors(nanobind::module_&) {
+  nanobind::register_exception_translator([](const std::exception_ptr& thrown, void*) {
+    try {
+      std::rethrow_exception(thrown);
+    } catch (const Error& error) {
+      const nanobind::object type =
+          nanobind::module_::import_("lanescape.errors").attr(error.code() == ErrorCode::bad_input ? "InputError" : "RunError");
+      PyErr_SetString(type.ptr(), error.what());
+    }
+  });
+}
+
+}  // namespace lanescape::python
