@@ -1,12 +1,17 @@
 """Functions for a single use; objects keep their memory for the next one."""
 
+from typing import Any
+
+from numpy.typing import ArrayLike
+
 from lanescape import _core
-from lanescape.results import Overlaps
+from lanescape.results import Evaluation, InsertedParticle, Overlaps, Path
 
 __all__ = ["evaluate", "find_path", "insert", "overlap"]
 
 
-def evaluate(model, positions, box, species=None, *, forces=True, stress=False, energies=False, **options):
+def evaluate(model: _core.Model, positions: ArrayLike, box: ArrayLike, species: "ArrayLike | None" = None, *, forces: bool = True,
+             stress: bool = False, energies: bool = False, **options: Any) -> Evaluation:
     """The energy of one configuration, and what else is asked for: an Evaluation.
 
     positions: (N, 3), wrapped or not. box: edges, (3,). species: names or indices, (N,); None for a model of one species. options: those
@@ -20,7 +25,7 @@ def evaluate(model, positions, box, species=None, *, forces=True, stress=False, 
     return kind(model, species, box, **options).evaluate(positions, forces=forces, stress=stress, energies=energies)
 
 
-def overlap(positions, radii, box, **options):
+def overlap(positions: ArrayLike, radii: ArrayLike, box: ArrayLike, **options: Any) -> Overlaps:
     """All overlaps of hard spheres: Overlaps. positions: (N, 3). radii: (N,). box: edges, (3,). options: those of HardSpheres.
 
     Raises InputError.
@@ -30,7 +35,9 @@ def overlap(positions, radii, box, **options):
     return Overlaps(pairs, gaps, spheres.smallest_gap(positions))
 
 
-def insert(model, species, positions, box, energy, count=1, *, probe=None, diameter=1.0, diameters=None, **options):
+def insert(model: _core.Model, species: "ArrayLike | None", positions: ArrayLike, box: ArrayLike, energy: float, count: int = 1, *,
+           probe: "str | int | None" = None, diameter: float = 1.0, diameters: "ArrayLike | None" = None,
+           **options: Any) -> list[InsertedParticle]:
     """Inserts `count` particles at positions where the energy rises by `energy`, one after the other: a list of InsertedParticle.
 
     The arguments are those of Inserter and of its method insert. Raises InputError.
@@ -39,7 +46,8 @@ def insert(model, species, positions, box, energy, count=1, *, probe=None, diame
     return inserter.insert(energy, count, **options)
 
 
-def find_path(landscape, start, finish, *, species=None, box=None, diameters=None, masses=None, **options):
+def find_path(landscape: Any, start: ArrayLike, finish: ArrayLike, *, species: "ArrayLike | None" = None, box: "ArrayLike | None" = None,
+              diameters: "ArrayLike | None" = None, masses: "ArrayLike | None" = None, **options: Any) -> Path:
     """A path from start to finish that never leaves the allowed region: a Path.
 
     landscape: a Model, with `species` and `box` and, where particles have them, `diameters`; or any landscape: a Potential, a

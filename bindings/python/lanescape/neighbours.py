@@ -1,13 +1,17 @@
 """matscipy's function for pairs of particles; NeighbourList keeps its memory for the next call."""
 
+from typing import Any
+
 import numpy
+from numpy.typing import ArrayLike
 
 from lanescape import _core
 
 __all__ = ["neighbour_list"]
 
 
-def neighbour_list(quantities, atoms=None, cutoff=None, positions=None, cell=None, pbc=None):
+def neighbour_list(quantities: str, atoms: Any = None, cutoff: "float | None" = None, positions: "ArrayLike | None" = None,
+                   cell: "ArrayLike | None" = None, pbc: "ArrayLike | None" = None) -> Any:
     """Pairs of particles within a cutoff, sorted by i, j and S, with ASE's conventions: one array for each letter, a single one bare.
 
     quantities: of i, j (P,) and S (P, 3), int64; D (P, 3) and d (P,), r_j - r_i + S . cell and its length < cutoff. A particle's own

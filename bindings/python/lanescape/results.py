@@ -77,5 +77,5 @@ class Path:
     frames: numpy.ndarray  # (F, N, 3), ends included
 
     @property
-    def reached(self):
+    def reached(self) -> bool:
         return self.outcome == "reached"
