@@ -1,0 +1,93 @@
+"""Strange arguments end in Python's exceptions, never in a crash or a wait without end."""
+
+import faulthandler
+import itertools
+import unittest
+
+import numpy as np
+from support import fluid
+
+import lanescape
+
+STRANGE = (None, -1, 0, 2.5, float("nan"), float("inf"), 1e308, "", "x", b"x", [], [[]], (), {}, object(), np.zeros((0, 3)), np.zeros(3), np.eye(3),
+           np.array(1.0), np.zeros((2, 3), complex), True, lambda *given: given, 2**70)
+
+
+class StrangeArgumentsTest(unittest.TestCase):
+    def setUp(self):
+        faulthandler.dump_traceback_later(60, exit=True)
+        self.addCleanup(faulthandler.cancel_dump_traceback_later)
+
+    def calls(self, function, good, names=()):
+        """Calls a function with each of its arguments replaced by each strange value; counts refusals."""
+        refusals = 0
+        for place, strange in itertools.product([*range(len(good)), *names], STRANGE):
+            arguments, keywords = list(good), {}
+            if isinstance(place, int):
+                arguments[place] = strange
+            else:
+                keywords[place] = strange
+            try:
+                function(*arguments, **keywords)
+            except Exception as refusal:
+                self.assertNotIn("bad_cast", str(refusal), (place, strange))
+                refusals += 1
+        self.assertGreater(refusals, len(STRANGE) // 2)
+
+    def test_makers(self):
+        self.calls(lanescape.Model.named, ["kob-andersen"], ["cutoff", "truncation", "images"])
+        self.calls(lanescape.Model.mixture, [["Ar"], 1.0, 1.0], ["form", "numbers", "cutoff", "truncation", "images", "masses", "fractions", "name"])
+        self.calls(lanescape.Model.hard_spheres, [["Ar"], [1.0]], ["masses", "fractions", "name"])
+        self.calls(lanescape.Model.from_file, ["/nowhere"])
+        self.calls(lanescape.Model.from_toml, ["nothing"])
+        model, species, positions, box = fluid()
+        self.calls(lanescape.Potential, [model, species, box], ["particles", "threads", "precision", "instruction_set", "diameters"])
+        self.calls(lanescape.HardSpheres, [[0.5], [3.0] * 3], ["instruction_set", "skin"])
+        self.calls(lanescape.Inserter, [model, species, positions, box, ], ["probe", "diameter", "diameters", "instruction_set"])
+        self.calls(lanescape.EventDrivenDynamics, [[0.5], [[0.0] * 3], [3.0] * 3], ["masses", "instruction_set"])
+        self.calls(lanescape.NeighbourList, [1.0], ["full_list", "sorted", "threads", "instruction_set"])
+        self.calls(lanescape.make_start, [model, 20, 1.0], ["seed"])
+
+    def test_methods(self):
+        model, species, positions, box = fluid()
+        potential = lanescape.Potential(model, species, box)
+        for method in (potential.energy, potential.energy_and_gradient, potential.energy_and_forces, potential.evaluate):
+            self.calls(method, [positions])
+        self.calls(potential.energy_and_gradient, [positions, np.empty((108, 3))])
+        self.calls(potential.evaluate, [positions], ["forces", "stress", "energies"])
+        for name in ("box", "exclusions"):
+            self.calls(lambda value: setattr(potential, name, value), [box])
+        spheres = lanescape.HardSpheres([0.5] * 2, [3.0] * 3)
+        for method in (spheres.any_overlap, spheres.overlaps, spheres.smallest_gap):
+            self.calls(method, [[[0.0] * 3, [1.5] * 3]])
+        inserter = lanescape.Inserter(model, species, positions, box, probe="Ni")
+        self.calls(inserter.find, [-4.0, 1], ["tolerance", "measure", "method", "largest_step", "region", "threads", "most_trials"])
+        for method in (inserter.energy, inserter.energy_and_force, inserter.energies, inserter.add, inserter.remove):
+            self.calls(method, [[0.0] * 3])
+        pairs = lanescape.NeighbourList(1.0)
+        self.calls(pairs.compute, [positions, box, True, "ijSDd"], ["species"])
+        self.calls(lanescape.neighbour_list, ["ij", None, 1.0, positions, box, True])
+
+    def test_runs(self):
+        model, species, positions, box = fluid()
+        potential = lanescape.Potential(model, species, box)
+
+        def path(landscape, start, finish, **options):
+            lanescape.find_path(landscape, start, finish, **{"max_steps": 20, **options})
+
+        self.calls(path, [potential, positions, positions + 0.01],
+                   ["masses", "method", "step", "avoidance_step", "fictitious", "landscape_energy", "reverse", "patience", "frames", "threads",
+                    "precision", "instruction_set", "progress", "species", "box"])
+        self.calls(lanescape.MolecularDynamics, [potential, positions, 0.001], ["masses"])
+        dynamics = lanescape.MolecularDynamics(potential, positions, 0.001)
+        self.calls(dynamics.draw_velocities, [1.0, 1])
+        self.calls(lambda velocities: setattr(dynamics, "velocities", velocities), [positions])
+        self.calls(lambda steps: dynamics.run(steps), [1])
+        with self.assertRaises((TypeError, ValueError)):
+            lanescape.make_end_points(model, None)
+        with self.assertRaises((TypeError, ValueError, AttributeError)):
+            lanescape.make_end_points(model, positions, quick=True)
+
+
+if __name__ == "__main__":
+    unittest.main()
