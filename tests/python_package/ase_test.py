@@ -7,7 +7,7 @@ import unittest
 import numpy as np
 from ase import Atoms
 from ase.build import bulk, make_supercell
-from ase.calculators.calculator import CalculatorSetupError
+from ase.calculators.calculator import CalculatorSetupError, PropertyNotImplementedError
 from ase.calculators.emt import EMT
 from ase.calculators.lj import LennardJones as AseLennardJones
 from ase.calculators.test import numeric_force
@@ -115,6 +115,11 @@ class CalculatorTest(unittest.TestCase):
         atoms.set_cell(atoms.cell.array * 1.02, scale_atoms=True)
         self.assertAlmostEqual(atoms.get_potential_energy(), fresh(), delta=1e-9)
         self.assertIs(calculator.system(atoms), kept)
+        other = atoms.copy()
+        other.set_cell(atoms.cell.array * 1.5, scale_atoms=True)
+        calculator.system(other)
+        atoms.positions[0, 0] += 1e-3
+        self.assertAlmostEqual(atoms.get_potential_energy(), fresh(), delta=1e-9)
         del atoms[5]
         self.assertAlmostEqual(atoms.get_potential_energy(), fresh(), delta=1e-9)
         self.assertEqual(len(atoms.get_forces()), 107)
@@ -156,6 +161,28 @@ class CalculatorTest(unittest.TestCase):
         for same in (pickle.loads(pickle.dumps(atoms)), copy.deepcopy(atoms)):
             same.calc.reset()
             self.assertEqual(same.get_potential_energy(), energy)
+
+    def test_properties_and_changes_are_told_in_ase_s_way(self):
+        atoms = argon()
+        calculator = atoms.calc = LennardJones()
+        self.assertEqual(calculator.check_state(atoms), ["positions", "numbers", "cell", "pbc"])
+        self.assertIsNone(calculator.atoms)
+        self.assertIsNone(calculator.get_property("energy", atoms, allow_calculation=False))
+        energy = atoms.get_potential_energy()
+        self.assertEqual(calculator.check_state(atoms), [])
+        self.assertEqual(calculator.get_potential_energy(), energy)
+        np.testing.assert_array_equal(calculator.atoms.positions, atoms.positions)
+        self.assertEqual(calculator.atoms, atoms)
+        np.testing.assert_array_equal(calculator.get_stress(), atoms.get_stress())
+        atoms.positions[0] += 0.01
+        self.assertEqual(calculator.check_state(atoms), ["positions"])
+        self.assertTrue(calculator.calculation_required(atoms, ["energy"]))
+        self.assertNotEqual(atoms.get_potential_energy(), energy)
+        forces = atoms.get_forces()
+        forces[:] = 0.0
+        self.assertGreater(np.abs(atoms.get_forces()).max(), 0.0)
+        with self.assertRaises(PropertyNotImplementedError):
+            atoms.get_dipole_moment()
 
     def test_optimisers_of_ase_run(self):
         atoms = argon(2)

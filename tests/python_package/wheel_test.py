@@ -35,7 +35,7 @@ def environment(folder, python, *, system):
     """The interpreter of a new virtual environment."""
     made = subprocess.run([python, "-m", "venv", *(["--system-site-packages"] if system else []), folder / "venv"], capture_output=True, text=True)
     if made.returncode != 0:
-        skip(f"{python} makes no virtual environment; Debian's package python3-venv does: {made.stdout.strip()}")
+        skip(f"{python} makes no virtual environment (Debian: package python3-venv): {' '.join((made.stderr + made.stdout).split())}")
     return folder / "venv/bin/python"
 
 
