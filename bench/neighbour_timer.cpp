@@ -68,7 +68,7 @@ class Timer {
             .members = members == "half" ? NeighbourFinder::Members::half : NeighbourFinder::Members::full,
             .order = order == "any" ? NeighbourFinder::Order::any : NeighbourFinder::Order::sorted,
             .quantities = {.i = wanted('i'), .j = wanted('j'), .S = wanted('S'), .D = wanted('D'), .d = wanted('d')},
-            .isa = isa_};
+            .instruction_set = isa_};
   }
 
   static double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }

@@ -42,7 +42,7 @@ struct NeighbourFinder::Implementation {
 
 NeighbourFinder::NeighbourFinder(const Options& options)
     : implementation_(
-          std::make_unique<Implementation>(Implementation{PairFinder(internal(options), kernel_table(choose_isa(options.isa)))})) {}
+          std::make_unique<Implementation>(Implementation{PairFinder(internal(options), kernel_table(choose_isa(options.instruction_set)))})) {}
 NeighbourFinder::~NeighbourFinder() = default;
 NeighbourFinder::NeighbourFinder(NeighbourFinder&&) noexcept = default;
 NeighbourFinder& NeighbourFinder::operator=(NeighbourFinder&&) noexcept = default;

@@ -29,7 +29,7 @@ NeighbourFinder::Options options_of(const lanescape_neighbour_options* given) {
   options.quantities.d = o.distances != 0;
   options.quantities.segments = o.segments != 0;
   options.threads = o.threads;
-  options.isa = word(o.instruction_set, options.isa.c_str());
+  options.instruction_set = word(o.instruction_set, options.instruction_set.c_str());
   return options;
 }
 

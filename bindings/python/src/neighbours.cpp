@@ -123,14 +123,14 @@ NeighbourFinder::Options options_of(ArrayLike cutoff, bool full_list, bool sorte
   options.members = full_list ? NeighbourFinder::Members::full : NeighbourFinder::Members::half;
   options.order = sorted ? NeighbourFinder::Order::sorted : NeighbourFinder::Order::any;
   options.threads = threads_of(threads);
-  options.isa = instruction_set;
+  options.instruction_set = instruction_set;
   return options;
 }
 
 nb::tuple NeighbourList::state() const {
   return nb::make_tuple(new_array(std::span<const double>(options_.cutoffs), {options_.cutoffs.size()}),
                         options_.members == NeighbourFinder::Members::full, options_.order == NeighbourFinder::Order::sorted,
-                        options_.threads, options_.isa);
+                        options_.threads, options_.instruction_set);
 }
 
 }  // namespace

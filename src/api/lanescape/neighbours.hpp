@@ -45,8 +45,8 @@ class LANESCAPE_API NeighbourFinder {
     Members members = Members::full;
     Order order = Order::sorted;
     Quantities quantities{};
-    int threads = 1;           // no result depends on it
-    std::string isa = "auto";  // or a name from instruction_sets()
+    int threads = 1;                       // no result depends on it
+    std::string instruction_set = "auto";  // or a name from instruction_sets()
   };
   // Views of the object's memory, valid until its next call; what is not wanted is empty.
   struct Pairs {

@@ -155,7 +155,7 @@ TEST_P(NeighbourFinderOnEveryIsa, FindsThePairsOfBruteForceWithEveryCombinationO
               const System system = random_system(box, particles, seed % 3 == 0 ? 2.0 : 0.0, seed, mixture ? 2 : 1);
               Options options{.cutoffs = {1.5}, .periodic = axes(periodic), .origin = {-0.3, 0.0, 40.0}, .members = members};
               options.order = order;
-              options.isa = to_string(GetParam());
+              options.instruction_set = to_string(GetParam());
               if (mixture) options.cutoffs = {1.5, 0.9, 0.9, 0.0};
               const Bonds bonds = particles > 2 ? Bonds{{0, 1}, {5, 3}, {7, 7}, {0, 1}} : Bonds{};
               ASSERT_EQ(found(options, system, bonds), by_force(options, system, bonds))
@@ -169,7 +169,7 @@ TEST_P(NeighbourFinderOnEveryIsa, FindsTheNeighboursOfOtherPoints) {
   for (const Point& box : {Point{9.0, 8.0, 10.0}, Point{1.0, 1.1, 7.0}, Point{300.0, 200.0, 5.0}})
     for (int periodic = 0; periodic < 8; ++periodic) {
       const System system = random_system(box, 50, 0.5, ++seed, 2), points = random_system(box, 30, 3.0, ++seed, 2);
-      const Options options{.cutoffs = {1.5, 2.0, 2.0, 1.0}, .periodic = axes(periodic), .isa = to_string(GetParam())};
+      const Options options{.cutoffs = {1.5, 2.0, 2.0, 1.0}, .periodic = axes(periodic), .instruction_set = to_string(GetParam())};
       NeighbourFinder finder(options);
       finder.set_particles(system.positions, system.box, system.species);
       EXPECT_EQ(rows_of(finder.neighbours(points.positions, points.species)), between_sets(options, points, system)) << periodic;
@@ -191,7 +191,7 @@ TEST_P(NeighbourFinderOnEveryIsa, FindsThePairsOfClustersFarApart) {
       for (int cluster = 0; cluster < 4; ++cluster)
         for (int k = 0; k < 20; ++k)
           for (const double length : system.box) system.positions.push_back(length * cluster / 4.0 + 3.0 * (unit(engine) - 0.5));
-      const Options options{.cutoffs = {1.5}, .periodic = axes(periodic), .isa = to_string(GetParam())};
+      const Options options{.cutoffs = {1.5}, .periodic = axes(periodic), .instruction_set = to_string(GetParam())};
       system.species.assign(80, 0);
       const std::vector<Row> expected = by_force(options, system);
       EXPECT_GT(expected.size(), 100U);
@@ -320,7 +320,7 @@ TEST(NeighbourFinder, RefusesOptionsThatMakeNoSense) {
   says({.cutoffs = {0.0, 0.0, 0.0, 0.0}}, "one must be above 0");
   says({.cutoffs = {1.0}, .origin = {0.0, nan, 0.0}}, "y coordinate nan of the box's origin");
   says({.cutoffs = {1.0}, .threads = 0}, "0 threads are not allowed: from 1 to 4096");
-  says({.cutoffs = {1.0}, .isa = "avx9"}, "avx9");
+  says({.cutoffs = {1.0}, .instruction_set = "avx9"}, "avx9");
   says({.cutoffs = {1.0}, .order = Order::any, .quantities = {.segments = true}}, "only sorted pairs");
 }
 
