@@ -10,6 +10,7 @@
 #include "verification/event_driven_checks.hpp"
 #include "verification/hard_sphere_cases.hpp"
 #include "verification/hard_sphere_checks.hpp"
+#include "verification/neighbour_checks.hpp"
 #include "verification/pair_checks.hpp"
 #include "verification/state_mixture_checks.hpp"
 
@@ -31,6 +32,7 @@ std::vector<Deviation> verify_kernels(Isa isa, const std::vector<PairCase>& case
   std::vector<Deviation> deviations = verify_pairs(table, cases, "lennard_jones");
   const auto append = [&](std::vector<Deviation> more) { std::move(more.begin(), more.end(), std::back_inserter(deviations)); };
   for (const PairForm& form : pair_forms().subspan(1)) append(verify_pairs(table, form_cases(form), name_in_results(form)));
+  append(verify_neighbour_pairs(table, cases));
   append(verify_vector_algebra(table));
   append(verify_state_mixtures(table, state_mixture_cases()));
   append(verify_hard_spheres(table, hard_sphere_cases()));
