@@ -64,6 +64,56 @@ class NeighbourListTest(unittest.TestCase):
         kept = (species[all_i] == species[all_j]) & (all_d < np.where(species[all_i] == 0, 2.0, 1.0))
         np.testing.assert_array_equal(np.column_stack((i, j)), np.column_stack((all_i, all_j))[kept])
 
+    def test_cutoffs_by_name_are_ase_s(self):
+        one = atoms()
+        one.symbols[::3] = "Kr"
+        one.symbols[::4] = "Xe"
+        for cutoffs in ({("Ar", "Kr"): 3.0}, {("Kr", "Ar"): 2.0, (18, 18): 1.5, ("Xe", "Xe"): 4.0}, {("Kr", "Ne"): 2.0}, {("He", "Ne"): 2.0}):
+            expected = ordered(neighbor_list("ijSDd", one, cutoffs))
+            found = lanescape.neighbour_list("ijSDd", one, cutoffs)
+            for ours, theirs in zip(found[:3], expected[:3]):
+                np.testing.assert_array_equal(ours, theirs)
+        without = {"positions": one.positions, "cell": one.cell.lengths()}
+        expected = lanescape.neighbour_list("ij", one, {("Ar", "Kr"): 3.0})
+        for cutoffs, numbers in (({("Ar", "Kr"): 3.0}, one.numbers), ({(18, 36): 3.0}, one.numbers), ({("Ar", "Kr"): 3.0}, one.get_chemical_symbols())):
+            np.testing.assert_array_equal(lanescape.neighbour_list("ij", None, cutoffs, numbers=numbers, **without), expected)
+
+    def test_unfit_cutoffs_by_name_are_refused(self):
+        one = atoms()
+        for bad in ({}, {("Ar", "Ar"): -1.0}, {("Ar", "Ar"): np.nan}, {("Ar", "Qq"): 2.0}, {("Ar", "Kr"): 2.0, ("Kr", "Ar"): 3.0}):
+            with self.assertRaises(lanescape.InputError, msg=bad):
+                lanescape.neighbour_list("ij", one, bad)
+        for bad in ({"Ar": 2.0}, {("Ar", "Ar", "Ar"): 2.0}):
+            with self.assertRaises(TypeError, msg=bad):
+                lanescape.neighbour_list("ij", one, bad)
+        with self.assertRaises(TypeError):
+            lanescape.neighbour_list("ij", None, {("Ar", "Ar"): 2.0}, positions=one.positions, cell=one.cell.lengths())
+        with self.assertRaises(lanescape.InputError):
+            lanescape.neighbour_list("ij", None, {("Ar", "Ar"): 2.0}, positions=one.positions, cell=one.cell.lengths(), numbers=one.numbers[1:])
+
+    def test_excluded_pairs_are_never_listed(self):
+        one = atoms()
+        i, j = lanescape.neighbour_list("ij", one, 2.5)
+        pairs = lanescape.NeighbourList(2.5, sorted=True)
+        bonds = np.column_stack((i, j))[:7]
+        pairs.exclusions = bonds
+        kept = ~(((i[:, None] == bonds[:, 0]) & (j[:, None] == bonds[:, 1])) | ((i[:, None] == bonds[:, 1]) & (j[:, None] == bonds[:, 0]))).any(axis=1)
+        self.assertGreaterEqual(len(i) - kept.sum(), 7)
+        for one_list in (pairs, pickle.loads(pickle.dumps(pairs))):
+            np.testing.assert_array_equal(one_list.exclusions, bonds)
+            for quantities in ("ij", "ijS"):
+                found = one_list.compute(one.positions, one.cell.lengths(), quantities=quantities)
+                np.testing.assert_array_equal(found[:2], (i[kept], j[kept]))
+        for bad in ([[0, -1]], [[0, 1, 2]], [0, 1]):
+            with self.assertRaises(lanescape.InputError):
+                pairs.exclusions = bad
+        np.testing.assert_array_equal(pairs.exclusions, bonds)
+        pairs.exclusions = [[0, 60]]
+        with self.assertRaises(lanescape.InputError):
+            pairs.compute(one.positions, one.cell.lengths())
+        pairs.exclusions = np.empty((0, 2), dtype=int)
+        self.assertEqual(len(pairs.compute(one.positions, one.cell.lengths())[0]), len(i))
+
     def test_arrays_outlive_later_calls_and_their_object(self):
         one, other = atoms(), atoms(seed=2, particles=100)
         pairs = lanescape.NeighbourList(2.0, sorted=True)

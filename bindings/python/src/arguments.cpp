@@ -103,6 +103,13 @@ std::array<double, 3> box_of(nb::handle given) {
   return {edges.values()[0], edges.values()[1], edges.values()[2]};
 }
 
+std::array<double, 3> point_of(nb::handle given, const char* what) {
+  const Numbers numbers = Numbers::list(given, what);
+  if (numbers.rows() != 3)
+    refuse(std::string(what) + ": " + std::to_string(numbers.rows()) + " numbers were given: x, y and z are needed");
+  return {numbers.values()[0], numbers.values()[1], numbers.values()[2]};
+}
+
 std::vector<int> species_of(const Model& model, nb::handle given, std::size_t particles) {
   if (given.is_none()) {
     if (model.species_count() != 1)
@@ -135,6 +142,16 @@ std::vector<std::int64_t> integers_of(nb::handle given, const char* what) {
   const auto numbers = nb::cast<nb::ndarray<const std::int64_t, nb::c_contig, nb::device::cpu>>(array);
   if (numbers.ndim() != 1) refuse(std::string(what) + ": shape " + shape_text(numbers) + " is not allowed: (N,) is needed");
   return {numbers.data(), numbers.data() + numbers.size()};
+}
+
+std::vector<std::array<std::int64_t, 2>> pairs_of(nb::handle given, const char* what) {
+  const nb::object array = nb::module_::import_("numpy").attr("asarray")(given);
+  if (nb::cast<std::size_t>(array.attr("ndim")) != 2 || nb::cast<std::size_t>(array.attr("shape")[1]) != 2)
+    refuse(std::string(what) + ": an array of shape (K, 2) is needed");
+  const std::vector<std::int64_t> indices = integers_of(array.attr("ravel")(), what);
+  std::vector<std::array<std::int64_t, 2>> pairs(indices.size() / 2);
+  for (std::size_t k = 0; k < indices.size(); ++k) pairs[k / 2][k % 2] = indices[k];
+  return pairs;
 }
 
 Progress progress_of(nb::object given) {

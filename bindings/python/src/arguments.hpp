@@ -67,6 +67,10 @@ std::string text(nb::handle object);
 int threads_of(int given);
 // Three edges.
 std::array<double, 3> box_of(nb::handle given);
+// x, y and z.
+std::array<double, 3> point_of(nb::handle given, const char* what);
+// Pairs of particles, (K, 2).
+std::vector<std::array<std::int64_t, 2>> pairs_of(nb::handle given, const char* what);
 // Names or indices of a model's species, N; None where the model has one species.
 std::vector<int> species_of(const Model& model, nb::handle given, std::size_t particles);
 // Integers of a caller, (N,).

@@ -14,14 +14,6 @@ namespace {
 
 using BoundInserter = Guarded<Inserter>;
 
-std::array<double, 3> point_of(nb::handle given, const char* what) {
-  const Numbers numbers = Numbers::list(given, what);
-  if (numbers.rows() != 3)
-    throw Error(ErrorCode::bad_input,
-                std::string(what) + ": " + std::to_string(numbers.rows()) + " numbers were given: x, y and z are needed");
-  return {numbers.values()[0], numbers.values()[1], numbers.values()[2]};
-}
-
 int probe_of(const Model& model, nb::handle given) {
   nb::list one;
   one.append(given);

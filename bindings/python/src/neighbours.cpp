@@ -15,6 +15,8 @@
 namespace lanescape::python {
 namespace {
 
+using Excluded = std::pair<std::int64_t, std::int64_t>;
+
 constexpr const char* all_quantities = "ijSDds";
 
 // The arrays that a call returns are the finder's memory. Each holds the finder, so that they outlive this object; a call that
@@ -24,12 +26,16 @@ class NeighbourList {
   explicit NeighbourList(NeighbourFinder::Options options) : options_(std::move(options)) { NeighbourFinder check(options_); }
 
   nb::tuple compute(ArrayLike points, ArrayLike box, nb::handle periodic, const std::string& quantities, ArrayLike species);
+  // Pairs that are never listed.
+  void exclude(std::vector<Excluded> pairs);
+  nb::object exclusions() const;
   nb::tuple state() const;
 
  private:
   void prepare(const NeighbourFinder::Options& wanted);
 
   NeighbourFinder::Options options_;
+  std::vector<Excluded> exclusions_;
   std::shared_ptr<NeighbourFinder> finder_;
   Lock lock_;
 };
@@ -84,7 +90,28 @@ void NeighbourList::prepare(const NeighbourFinder::Options& wanted) {
   if (finder_ && finder_.use_count() == 1 && wanted.periodic == options_.periodic && same(wanted.quantities, options_.quantities))
     return;
   finder_ = std::make_shared<NeighbourFinder>(wanted);
+  finder_->exclude(exclusions_);
   options_ = wanted;
+}
+
+void NeighbourList::exclude(std::vector<Excluded> pairs) {
+  unlocked(lock_, [&] {
+    NeighbourFinder(options_).exclude(pairs);
+    exclusions_ = std::move(pairs);
+    finder_.reset();
+  });
+}
+
+nb::object NeighbourList::exclusions() const {
+  std::vector<std::int64_t> indices;
+  for (const auto& [i, j] : exclusions_) indices.insert(indices.end(), {i, j});
+  return new_array(std::span<const std::int64_t>(indices), {exclusions_.size(), 2});
+}
+
+std::vector<Excluded> excluded_of(ArrayLike given) {
+  std::vector<Excluded> pairs;
+  for (const auto& [i, j] : pairs_of(given, "exclusions")) pairs.emplace_back(i, j);
+  return pairs;
 }
 
 nb::tuple NeighbourList::compute(ArrayLike points, ArrayLike box, nb::handle periodic, const std::string& quantities,
@@ -130,7 +157,7 @@ NeighbourFinder::Options options_of(ArrayLike cutoff, bool full_list, bool sorte
 nb::tuple NeighbourList::state() const {
   return nb::make_tuple(new_array(std::span<const double>(options_.cutoffs), {options_.cutoffs.size()}),
                         options_.members == NeighbourFinder::Members::full, options_.order == NeighbourFinder::Order::sorted,
-                        options_.threads, options_.instruction_set);
+                        options_.threads, options_.instruction_set, exclusions());
 }
 
 }  // namespace
@@ -158,10 +185,14 @@ void bind_neighbours(nb::module_& module) {
            "points: (N, 3), wrapped or not. box: edges, (3,), or the matrix of an orthorhombic cell. periodic: for all axes or "
            "each.\n"
            "species: (N,), from 0, where cutoff is a matrix.\n\nRaises InputError.")
+      .def_prop_rw(
+          "exclusions", &NeighbourList::exclusions, [](NeighbourList& self, ArrayLike pairs) { self.exclude(excluded_of(pairs)); },
+          "Pairs (i, j) that are never listed in either direction, such as bonded ones, (K, 2), int64.")
       .def("__getstate__", &NeighbourList::state)
       .def("__setstate__", [](NeighbourList* self, const nb::tuple& kept) {
         new (self) NeighbourList(options_of(kept[0], nb::cast<bool>(kept[1]), nb::cast<bool>(kept[2]), nb::cast<int>(kept[3]),
                                             nb::cast<std::string>(kept[4])));
+        self->exclude(excluded_of(kept[5]));
       });
 }
 

@@ -3,6 +3,7 @@
 
 #include <lanescape/potential.hpp>
 
+#include <algorithm>
 #include <string>
 #include <tuple>
 
@@ -36,14 +37,10 @@ nb::object species_array(const Potential& potential) {
 nb::object box_array(const Potential& potential) { return new_array(std::span<const double>(potential.box()), {3}); }
 
 void set_exclusions(BoundPotential& self, ArrayLike given) {
-  const nb::object array = nb::module_::import_("numpy").attr("asarray")(given);
-  if (nb::cast<std::size_t>(array.attr("ndim")) != 2 || nb::cast<std::size_t>(array.attr("shape")[1]) != 2)
-    throw Error(ErrorCode::bad_input, "exclusions: an array of shape (K, 2) is needed");
-  const std::vector<std::int64_t> indices = integers_of(array.attr("ravel")(), "exclusions");
-  std::vector<std::array<std::size_t, 2>> pairs(indices.size() / 2);
-  for (std::size_t k = 0; k < indices.size(); ++k) {
-    if (indices[k] < 0) throw Error(ErrorCode::bad_input, "exclusions: " + std::to_string(indices[k]) + " is no particle");
-    pairs[k / 2][k % 2] = static_cast<std::size_t>(indices[k]);
+  std::vector<std::array<std::size_t, 2>> pairs;
+  for (const auto& [i, j] : pairs_of(given, "exclusions")) {
+    if (i < 0 || j < 0) throw Error(ErrorCode::bad_input, "exclusions: " + std::to_string(std::min(i, j)) + " is no particle");
+    pairs.push_back({static_cast<std::size_t>(i), static_cast<std::size_t>(j)});
   }
   unlocked(self.lock, [&] { self.object.set_exclusions(pairs); });
   self.exclusions = std::move(pairs);
