@@ -12,6 +12,7 @@ from lanescape._core import (
     Model,
     MolecularDynamics,
     NeighbourList,
+    ParticleMoves,
     Potential,
     StateSystem,
     __version__,
@@ -24,10 +25,10 @@ from lanescape._core import (
 from lanescape.errors import Error, InputError, RunError
 from lanescape.functions import evaluate, find_path, insert, overlap
 from lanescape.neighbours import neighbour_list
-from lanescape.results import EndPoints, Evaluation, InsertedParticle, Overlaps, Path, Start
+from lanescape.results import EndPoints, Evaluation, InsertedParticle, Overlaps, Path, SitePairs, Start
 
 __all__ = [
     "EndPoints", "Error", "Evaluation", "EventDrivenDynamics", "HardSpheres", "InputError", "InsertedParticle", "Inserter", "Model",
-    "MolecularDynamics", "NeighbourList", "Overlaps", "Path", "Potential", "RunError", "Start", "StateSystem", "__version__", "evaluate", "find_path",
-    "insert", "instruction_sets", "make_end_points", "make_start", "model_names", "neighbour_list", "overlap", "pair_potentials",
+    "MolecularDynamics", "NeighbourList", "Overlaps", "ParticleMoves", "Path", "Potential", "RunError", "SitePairs", "Start", "StateSystem", "__version__",
+    "evaluate", "find_path", "insert", "instruction_sets", "make_end_points", "make_start", "model_names", "neighbour_list", "overlap", "pair_potentials",
 ]

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy
 
-__all__ = ["EndPoints", "Evaluation", "InsertedParticle", "Overlaps", "Path", "Start"]
+__all__ = ["EndPoints", "Evaluation", "InsertedParticle", "Overlaps", "Path", "SitePairs", "Start"]
 
 
 class Evaluation(NamedTuple):
@@ -24,6 +24,14 @@ class Overlaps(NamedTuple):
     pairs: numpy.ndarray  # (K, 2), int64, i < j in rising order
     gaps: numpy.ndarray  # (K,): r_ij - s_ij < 0
     smallest_gap: float  # of all pairs, those that do not overlap too
+
+
+class SitePairs(NamedTuple):
+    """All P pairs of sites within reach, once from each end, for an order parameter; views that are valid during its call."""
+
+    first: numpy.ndarray  # sites, (P,), int64
+    second: numpy.ndarray  # (P,), int64
+    separation: numpy.ndarray  # r_first - r_second, an image of it, (P, 3)
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,6 +10,7 @@
 #include <lanescape/states.hpp>
 
 #include "guarded.hpp"
+#include "python_states.hpp"
 
 // The library's landscapes as Python holds them, with what their pickles need and the library's classes do not tell again.
 namespace lanescape::python {
@@ -25,11 +26,14 @@ struct StateParameters {
   std::array<double, 3> box;
   int threads;
   std::string instruction_set;
+  nb::object order_parameter, response;  // of the user's, or None
 };
 
 struct BoundStates : Guarded<StateSystem> {
   explicit BoundStates(StateParameters with)
-      : Guarded<StateSystem>(with.model, with.species, with.box, StateSystem::Options{with.threads, with.instruction_set, {}, {}}),
+      : Guarded<StateSystem>(with.model, with.species, with.box,
+                             StateSystem::Options{with.threads, with.instruction_set, order_parameter_of(with.order_parameter),
+                                                  response_of(with.response)}),
         parameters(std::move(with)) {}
   StateParameters parameters;
 };

@@ -13,6 +13,7 @@ NB_MODULE(_core, module) {
   bind_errors(module);
   bind_models(module);
   bind_potentials(module);
+  bind_particle_moves(module);
   bind_hard_spheres(module);
   bind_states(module);
   bind_insertion(module);

@@ -8,6 +8,7 @@ namespace lanescape::python {
 void bind_errors(nanobind::module_& module);
 void bind_models(nanobind::module_& module);
 void bind_potentials(nanobind::module_& module);
+void bind_particle_moves(nanobind::module_& module);
 void bind_hard_spheres(nanobind::module_& module);
 void bind_states(nanobind::module_& module);
 void bind_insertion(nanobind::module_& module);
