@@ -32,6 +32,7 @@ void FoldedAxis::narrow_gaps(std::span<const double> coordinates, double least) 
   const std::size_t count = (coordinates.size() + 2) / 3;
   if (count == 0) return;
   if (!periodic_) origin_ = 0.0;  // the distance from the lowest may overflow
+  least_ = least;
   double* sorted = sorted_.room_for(count);
   for (std::size_t k = 0; k < count; ++k) sorted[k] = wrapped(coordinates[3 * k]).inside;
   std::sort(sorted, sorted + count);
@@ -73,7 +74,13 @@ FoldedAxis::Place FoldedAxis::place(double x) const {
   Place place = wrapped(x);
   if (stretches_ == 0) return place;
   const Stretch& stretch = nearest(place);
-  place.inside = stretch.begin + (place.inside - stretch.first);
+  const double wide = stretch.last - stretch.first, half = 0.5 * least_;
+  place.inside = stretch.begin + std::clamp(place.inside - stretch.first, -half, wide + half);
+  if (periodic_ && (place.inside < 0.0 || place.inside > length_)) {
+    const double boxes = place.inside < 0.0 ? 1.0 : -1.0;
+    place.inside += boxes * length_;
+    place.boxes += boxes;
+  }
   return place;
 }
 

@@ -10,7 +10,8 @@ namespace lanescape {
 
 // One axis of a box, periodic or open, and where coordinates lie along it: periodic ones wrapped, open ones from the lowest. Where
 // that is asked for, gaps between coordinates that are wider than `least` are narrowed to it, so that a grid follows the particles
-// and single precision resolves them. Coordinates nearer to each other than `least` keep their separation. Memory is kept.
+// and single precision resolves them. Coordinates nearer to each other than `least` keep their separation, and another coordinate
+// keeps that from those nearer than half of it; it lies at least so far from all others. Memory is kept.
 class FoldedAxis {
  public:
   struct Place {
@@ -38,7 +39,7 @@ class FoldedAxis {
   const Stretch& nearest(Place& place) const;
 
   bool periodic_ = true;
-  double edge_ = 0.0, origin_ = 0.0, length_ = 0.0;
+  double edge_ = 0.0, origin_ = 0.0, length_ = 0.0, least_ = 0.0;
   std::size_t stretches_ = 0;  // 0: no gap is narrowed
   KeptArray<double> sorted_;
   KeptArray<Stretch> stretch_;

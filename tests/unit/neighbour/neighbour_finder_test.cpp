@@ -181,6 +181,22 @@ TEST_P(NeighbourFinderOnEveryIsa, FindsTheNeighboursOfOtherPoints) {
     }
 }
 
+// Points in the gaps between few particles, which the search narrows.
+TEST_P(NeighbourFinderOnEveryIsa, FindsTheNeighboursOfPointsBetweenFewParticles) {
+  unsigned seed = 500;
+  for (int trial = 0; trial < 400; ++trial) {
+    const int periodic = trial % 8;
+    const Point box{3.0 + 3.5 * (trial % 3), 4.0, 5.0};
+    const System system = random_system(box, 1 + static_cast<std::size_t>(trial % 12), 0.5, ++seed, 1);
+    const System points = random_system(box, 4, 1.5, ++seed, 1);
+    const Options options{
+        .cutoffs = {0.3 + 0.01 * (trial % 120)}, .periodic = axes(periodic), .instruction_set = to_string(GetParam())};
+    NeighbourFinder finder(options);
+    finder.set_particles(system.positions, system.box, system.species);
+    ASSERT_EQ(rows_of(finder.neighbours(points.positions, points.species)), between_sets(options, points, system)) << trial;
+  }
+}
+
 // Droplets far apart, along open axes too; one is at a face.
 TEST_P(NeighbourFinderOnEveryIsa, FindsThePairsOfClustersFarApart) {
   std::mt19937_64 engine(3);
