@@ -6,11 +6,15 @@ module lanescape
   use lanescape_objects, only: lanescape_bad_input, lanescape_callback_error, lanescape_callback_failed, &
     lanescape_goal_not_reached, lanescape_internal, lanescape_ok, lanescape_version
   use lanescape_models
-  use lanescape_potentials
+  use lanescape_potentials, only: lanescape_potential
+  use lanescape_monte_carlo
   use lanescape_particles
   use lanescape_insertion
   use lanescape_landscapes, only: lanescape_landscape
+  use lanescape_progress_reports, only: lanescape_progress
+  use lanescape_end_point_pairs
   use lanescape_paths
   use lanescape_trajectories
+  use lanescape_collisions
   implicit none
 end module lanescape

@@ -5,7 +5,7 @@ module lanescape_objects
   implicit none
   private
   public :: lanescape_object, lanescape_version, lanescape_callback_error
-  public :: destroy_c, conclude, refuse, check_shape, fits, optional_word, text_at, address_of_words
+  public :: destroy_c, conclude, refuse, check_shape, fits, from_zero, optional_word, text_at, address_of_words
 
   integer, parameter, public :: dp = c_double
   ! Values of stat.
@@ -153,6 +153,28 @@ contains
     write (message, '(2a, i0, a, i0, a)') what, " has ", size(array), " elements: ", n, " are needed"
     call refuse(trim(message), stat, errmsg)
   end function fits
+
+  ! Optional species of n particles as C numbers them, and their address; if there are more or fewer, the call is refused.
+  logical function from_zero(species, n, kept, address, stat, errmsg)
+    integer, intent(in), optional :: species(:)
+    integer, intent(in) :: n
+    integer(c_int), allocatable, target, intent(out) :: kept(:)
+    type(c_ptr), intent(out) :: address
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    character(80) :: message
+    address = c_null_ptr
+    from_zero = .true.
+    if (.not. present(species)) return
+    from_zero = size(species) == n
+    if (from_zero) then
+      kept = species - 1
+      if (n > 0) address = c_loc(kept(1))
+    else
+      write (message, '(a, i0, a, i0, a)') "species has ", size(species), " elements: ", n, " are needed"
+      call refuse(trim(message), stat, errmsg)
+    end if
+  end function from_zero
 
   ! A word for C, or nothing, which stays unallocated.
   subroutine optional_word(word, chars, address)

@@ -9,9 +9,13 @@ module lanescape_particles
   ! Finds pairs within a cutoff, with ASE's conventions (neighbor_list("ijSDd")).
   type, extends(lanescape_object), public :: lanescape_neighbours
   contains
-    procedure :: create => create_neighbours
+    procedure, private :: create_with_cutoff
+    procedure, private :: create_with_cutoffs
+    generic :: create => create_with_cutoff, create_with_cutoffs
     procedure :: exclude
     procedure :: find => find_pairs
+    procedure :: set_particles
+    procedure :: find_around
   end type lanescape_neighbours
 
   ! A particle's own images are among the pairs.
@@ -92,6 +96,21 @@ module lanescape_particles
       real(c_double), intent(in) :: positions(*), box(3)
       type(neighbour_pairs_c), intent(inout) :: pairs
     end function neighbours_find_c
+    integer(c_int) function set_particles_c(neighbours, particles, positions, box, species) &
+      bind(c, name="lanescape_neighbours_set_particles")
+      import
+      type(c_ptr), value :: neighbours, species
+      integer(c_size_t), value :: particles
+      real(c_double), intent(in) :: positions(*), box(3)
+    end function set_particles_c
+    integer(c_int) function of_points_c(neighbours, points, positions, species, pairs) &
+      bind(c, name="lanescape_neighbours_of_points")
+      import
+      type(c_ptr), value :: neighbours, species
+      integer(c_size_t), value :: points
+      real(c_double), intent(in) :: positions(*)
+      type(neighbour_pairs_c), intent(inout) :: pairs
+    end function of_points_c
     integer(c_int) function neighbours_destroy_c(handle) bind(c, name="lanescape_neighbours_destroy")
       import
       type(c_ptr), value :: handle
@@ -133,30 +152,52 @@ module lanescape_particles
 contains
 
   ! periodic: axes, all without it; boxes have no meaning along others. half: of (i, j) and (j, i) the one with j > i only. sorted: by
-  ! particles and shift, which is so without it.
-  subroutine create_neighbours(self, cutoff, periodic, half, sorted, threads, instruction_set, stat, errmsg)
+  ! particles and shift, which is so without it. origin: the box's corner.
+  subroutine create_with_cutoff(self, cutoff, periodic, half, sorted, threads, instruction_set, origin, stat, errmsg)
     class(lanescape_neighbours), intent(inout) :: self
     real(dp), intent(in) :: cutoff
     logical, intent(in), optional :: periodic(3), half, sorted
     integer, intent(in), optional :: threads
     character(*), intent(in), optional :: instruction_set
+    real(dp), intent(in), optional :: origin(3)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    real(dp) :: cutoffs(1, 1)
+    cutoffs = cutoff
+    call create_with_cutoffs(self, cutoffs, periodic, half, sorted, threads, instruction_set, origin, stat, errmsg)
+  end subroutine create_with_cutoff
+
+  ! Cutoffs (species, species), symmetric; pairs of cutoff 0 are never listed.
+  subroutine create_with_cutoffs(self, cutoffs, periodic, half, sorted, threads, instruction_set, origin, stat, errmsg)
+    class(lanescape_neighbours), intent(inout) :: self
+    real(dp), intent(in), target, contiguous :: cutoffs(:, :)
+    logical, intent(in), optional :: periodic(3), half, sorted
+    integer, intent(in), optional :: threads
+    character(*), intent(in), optional :: instruction_set
+    real(dp), intent(in), optional :: origin(3)
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     type(neighbour_options_c) :: options
     character(kind=c_char), allocatable, target :: set_chars(:)
     type(c_ptr) :: handle
     integer(c_int) :: status
+    if (size(cutoffs, 1) /= size(cutoffs, 2) .or. size(cutoffs) == 0) then
+      call refuse("cutoffs must be (S, S) for S species, at least one", stat, errmsg)
+      return
+    end if
     status = neighbour_options_init_c(options, c_sizeof(options))
-    options%cutoff = cutoff
+    options%species = size(cutoffs, 1)
+    options%cutoffs = c_loc(cutoffs(1, 1))
     if (present(periodic)) options%periodic = merge(1, 0, periodic)
     if (present(half)) options%half = merge(1, 0, half)
     if (present(sorted)) options%sorted = merge(1, 0, sorted)
     if (present(threads)) options%threads = threads
+    if (present(origin)) options%origin = origin
     call optional_word(instruction_set, set_chars, options%instruction_set)
     status = neighbours_create_c(options, handle)
     if (status == lanescape_ok) call self%hold(handle, neighbours_destroy_c)
     call conclude(status, stat, errmsg)
-  end subroutine create_neighbours
+  end subroutine create_with_cutoffs
 
   ! Pairs of particles, (2, pairs), that are never listed, such as bonded ones, in place of those before.
   subroutine exclude(self, pairs, stat, errmsg)
@@ -171,35 +212,78 @@ contains
     call conclude(neighbours_exclude_c(self%handle(), size(pairs, 2, kind=c_size_t), int(pairs - 1, c_int64_t)), stat, errmsg)
   end subroutine exclude
 
-  ! Positions (3, N); box: edge lengths.
-  subroutine find_pairs(self, positions, box, pairs, stat, errmsg)
+  ! Positions (3, N); box: edge lengths; species from 1, where there are several cutoffs.
+  subroutine find_pairs(self, positions, box, pairs, species, stat, errmsg)
     class(lanescape_neighbours), intent(inout) :: self
     real(dp), intent(in), contiguous :: positions(:, :)
     real(dp), intent(in) :: box(3)
     type(lanescape_pairs), intent(out) :: pairs
+    integer, intent(in), optional :: species(:)
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     type(neighbour_pairs_c) :: found
-    integer(c_int32_t), pointer :: shift(:, :)
-    real(dp), pointer :: separation(:, :)
+    integer(c_int), allocatable, target :: kept(:)
+    type(c_ptr) :: address
     integer(c_int) :: status
     if (.not. check_shape("positions", positions, size(positions, 2), stat, errmsg)) return
+    if (.not. from_zero(species, size(positions, 2), kept, address, stat, errmsg)) return
     found%size = c_sizeof(found)
-    status = neighbours_find_c(self%handle(), size(positions, 2, kind=c_size_t), positions, box, c_null_ptr, found)
-    if (status == lanescape_ok) then
-      pairs%first = particles_at(found%first, found%count)
-      pairs%second = particles_at(found%second, found%count)
-      pairs%distance = numbers_at(found%distance, found%count)
-      allocate (pairs%shift(3, found%count), pairs%separation(3, found%count))
-      if (found%count > 0) then
-        call c_f_pointer(found%shift, shift, [3_c_size_t, found%count])
-        call c_f_pointer(found%separation, separation, [3_c_size_t, found%count])
-        pairs%shift = shift
-        pairs%separation = separation
-      end if
-    end if
+    status = neighbours_find_c(self%handle(), size(positions, 2, kind=c_size_t), positions, box, address, found)
+    if (status == lanescape_ok) call copy_pairs(found, pairs)
     call conclude(status, stat, errmsg)
   end subroutine find_pairs
+
+  ! Prepares the search around other points, by find_around, among these particles; arguments as those of find.
+  subroutine set_particles(self, positions, box, species, stat, errmsg)
+    class(lanescape_neighbours), intent(inout) :: self
+    real(dp), intent(in), contiguous :: positions(:, :)
+    real(dp), intent(in) :: box(3)
+    integer, intent(in), optional :: species(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int), allocatable, target :: kept(:)
+    type(c_ptr) :: address
+    if (.not. check_shape("positions", positions, size(positions, 2), stat, errmsg)) return
+    if (.not. from_zero(species, size(positions, 2), kept, address, stat, errmsg)) return
+    call conclude(set_particles_c(self%handle(), size(positions, 2, kind=c_size_t), positions, box, address), stat, errmsg)
+  end subroutine set_particles
+
+  ! The particles within the cutoff of each point, (3, points), all of them: pairs%first numbers the points, pairs%second the
+  ! particles.
+  subroutine find_around(self, points, pairs, species, stat, errmsg)
+    class(lanescape_neighbours), intent(inout) :: self
+    real(dp), intent(in), contiguous :: points(:, :)
+    type(lanescape_pairs), intent(out) :: pairs
+    integer, intent(in), optional :: species(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(neighbour_pairs_c) :: found
+    integer(c_int), allocatable, target :: kept(:)
+    type(c_ptr) :: address
+    integer(c_int) :: status
+    if (.not. check_shape("points", points, size(points, 2), stat, errmsg)) return
+    if (.not. from_zero(species, size(points, 2), kept, address, stat, errmsg)) return
+    found%size = c_sizeof(found)
+    status = of_points_c(self%handle(), size(points, 2, kind=c_size_t), points, address, found)
+    if (status == lanescape_ok) call copy_pairs(found, pairs)
+    call conclude(status, stat, errmsg)
+  end subroutine find_around
+
+  subroutine copy_pairs(found, pairs)
+    type(neighbour_pairs_c), intent(in) :: found
+    type(lanescape_pairs), intent(out) :: pairs
+    integer(c_int32_t), pointer :: shift(:, :)
+    real(dp), pointer :: separation(:, :)
+    pairs%first = particles_at(found%first, found%count)
+    pairs%second = particles_at(found%second, found%count)
+    pairs%distance = numbers_at(found%distance, found%count)
+    allocate (pairs%shift(3, found%count), pairs%separation(3, found%count))
+    if (found%count == 0) return
+    call c_f_pointer(found%shift, shift, [3_c_size_t, found%count])
+    call c_f_pointer(found%separation, separation, [3_c_size_t, found%count])
+    pairs%shift = shift
+    pairs%separation = separation
+  end subroutine copy_pairs
 
   ! Numbers of particles, which the library counts from 0.
   function particles_at(address, count) result(particles)

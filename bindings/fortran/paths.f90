@@ -4,6 +4,7 @@ module lanescape_paths
   use lanescape_objects
   use lanescape_models, only: lanescape_model
   use lanescape_landscapes
+  use lanescape_progress_reports
   implicit none
   private
 
@@ -18,6 +19,7 @@ module lanescape_paths
     integer :: frames = -1                         ! configurations kept between the two ends; below 0: the library's own choice
     integer :: threads = 1
     character(16) :: precision = "", instruction_set = ""
+    procedure(lanescape_progress), pointer, nopass :: progress => null()
   end type lanescape_path_settings
 
   ! A path that never leaves the allowed region: V(R) <= E_L, or no overlaps.
@@ -114,6 +116,7 @@ contains
     real(dp), intent(in), optional, target, contiguous :: diameters(:)
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
+    type(host_progress), target :: progress
     character(kind=c_char), allocatable, target :: chars(:, :)
     type(settings_c) :: s
     type(c_ptr) :: address, handle
@@ -121,7 +124,7 @@ contains
     if (.not. check_shape("start", start, size(species), stat, errmsg)) return
     if (.not. check_shape("finish", finish, size(species), stat, errmsg)) return
     if (.not. fits("diameters", diameters, size(species), address, stat, errmsg)) return
-    call translate(settings, s, chars)
+    call translate(settings, progress, s, chars)
     status = find_path_c(model%handle(), size(species, kind=c_size_t), species - 1, box, start, finish, address, s, handle)
     call keep(self, status, handle, stat, errmsg)
   end subroutine find_on_model
@@ -136,6 +139,7 @@ contains
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     type(host_landscape), target :: host
+    type(host_progress), target :: progress
     character(kind=c_char), allocatable, target :: chars(:, :)
     type(settings_c) :: s
     type(c_ptr) :: address, handle
@@ -145,14 +149,15 @@ contains
     if (.not. check_shape("start", start, host%particles, stat, errmsg)) return
     if (.not. check_shape("finish", finish, host%particles, stat, errmsg)) return
     if (.not. fits("masses", masses, host%particles, address, stat, errmsg)) return
-    call translate(settings, s, chars)
+    call translate(settings, progress, s, chars)
     status = find_path_on_c(landscape_of(host), start, finish, address, s, handle)
     call keep(self, status, handle, stat, errmsg)
   end subroutine find_on_landscape
 
-  ! Settings for C, whose words are in `chars`.
-  subroutine translate(settings, s, chars)
+  ! Settings for C, whose words are in `chars` and whose procedure is in `progress`.
+  subroutine translate(settings, progress, s, chars)
     type(lanescape_path_settings), intent(in), optional, target :: settings
+    type(host_progress), target, intent(inout) :: progress
     type(settings_c), intent(out) :: s
     character(kind=c_char), allocatable, target, intent(out) :: chars(:, :)
     type(c_ptr), allocatable :: addresses(:)
@@ -170,6 +175,10 @@ contains
     if (settings%patience /= 0) s%patience = settings%patience
     if (settings%frames >= 0) s%frames = settings%frames
     s%threads = settings%threads
+    if (.not. associated(settings%progress)) return
+    progress%report => settings%progress
+    s%progress = c_funloc(progress_c)
+    s%progress_user = c_loc(progress)
   end subroutine translate
 
   ! Keeps a path that was found, and ends the call.

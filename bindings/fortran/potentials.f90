@@ -13,10 +13,12 @@ module lanescape_potentials
     procedure :: particles
     procedure :: evaluate
     procedure :: set_box
+    procedure :: set_exclusions
+    procedure :: states
   end type lanescape_potential
 
   ! Structs, with their members in the header's order.
-  type, bind(c) :: potential_options_c
+  type, bind(c), public :: potential_options_c
     integer(c_size_t) :: size = 0
     integer(c_int) :: threads = 1
     type(c_ptr) :: precision = c_null_ptr, instruction_set = c_null_ptr, diameters = c_null_ptr
@@ -54,6 +56,18 @@ module lanescape_potentials
       type(c_ptr), value :: potential
       real(c_double), intent(in) :: box(3)
     end function potential_set_box_c
+    integer(c_int) function set_exclusions_c(potential, pairs, particles) bind(c, name="lanescape_potential_set_exclusions")
+      import
+      type(c_ptr), value :: potential
+      integer(c_size_t), value :: pairs
+      integer(c_size_t), intent(in) :: particles(*)
+    end function set_exclusions_c
+    integer(c_int) function states_c(potential, states, order_parameters, probabilities) &
+      bind(c, name="lanescape_potential_states")
+      import
+      type(c_ptr), value :: potential, order_parameters, probabilities
+      integer(c_size_t), intent(inout) :: states
+    end function states_c
     integer(c_int) function potential_destroy_c(handle) bind(c, name="lanescape_potential_destroy")
       import
       type(c_ptr), value :: handle
@@ -129,4 +143,41 @@ contains
     character(*), intent(inout), optional :: errmsg
     call conclude(potential_set_box_c(self%handle(), box), stat, errmsg)
   end subroutine set_box
+
+  ! Pairs of particles, (2, pairs), that do not interact, such as bonded ones, in place of those before. Only the nearest image of a
+  ! pair is left out. Of pair potentials.
+  subroutine set_exclusions(self, pairs, stat, errmsg)
+    class(lanescape_potential), intent(inout) :: self
+    integer, intent(in) :: pairs(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (size(pairs, 1) /= 2) then
+      call refuse("pairs must be (2, number of pairs)", stat, errmsg)
+      return
+    end if
+    call conclude(set_exclusions_c(self%handle(), size(pairs, 2, kind=c_size_t), int(pairs - 1, c_size_t)), stat, errmsg)
+  end subroutine set_exclusions
+
+  ! Of the last evaluation of sites in states: order parameters, (N), and probabilities, (states, N).
+  subroutine states(self, order_parameters, probabilities, stat, errmsg)
+    class(lanescape_potential), intent(in) :: self
+    real(dp), intent(out), optional, allocatable, target :: order_parameters(:), probabilities(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: to(2)
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    integer :: n
+    to = c_null_ptr
+    n = self%particles()
+    status = states_c(self%handle(), count, to(1), to(2))
+    if (status == lanescape_ok) then
+      if (present(order_parameters)) allocate (order_parameters(n))
+      if (present(order_parameters) .and. n > 0) to(1) = c_loc(order_parameters(1))
+      if (present(probabilities)) allocate (probabilities(count, n))
+      if (present(probabilities) .and. n > 0) to(2) = c_loc(probabilities(1, 1))
+      status = states_c(self%handle(), count, to(1), to(2))
+    end if
+    call conclude(status, stat, errmsg)
+  end subroutine states
 end module lanescape_potentials

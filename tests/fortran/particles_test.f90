@@ -10,6 +10,8 @@ program particles_test
 
   apart = reshape([9.5_dp, 1.0_dp, 2.0_dp, 0.25_dp, 1.0_dp, 2.0_dp], [3, 2])  ! 0.75 across a face of the box
   call pairs_have_their_shift()
+  call species_have_their_cutoffs()
+  call points_have_neighbours()
   call overlaps_are_found()
   call particles_are_inserted()
   call finish()
@@ -38,11 +40,56 @@ contains
     call expect(size(pairs%first) == 0, "open axes have no images")
     call neighbours%find(apart(:, :0), cube, pairs)
     call expect(size(pairs%first) == 0 .and. size(pairs%shift, 2) == 0, "no particles have no pairs")
-    call neighbours%find(apart(:2, :), cube, pairs, stat, errmsg)
+    call neighbours%find(apart(:2, :), cube, pairs, stat=stat, errmsg=errmsg)
     call refused(stat, errmsg, "positions has the shape (2, 2)")
-    call neighbours%find(apart, [10.0_dp, -1.0_dp, 10.0_dp], pairs, stat, errmsg)
+    call neighbours%find(apart, [10.0_dp, -1.0_dp, 10.0_dp], pairs, stat=stat, errmsg=errmsg)
     call expect(stat == lanescape_bad_input, "a negative edge is refused")
   end subroutine pairs_have_their_shift
+
+  subroutine species_have_their_cutoffs()
+    type(lanescape_neighbours) :: neighbours
+    type(lanescape_pairs) :: pairs
+    real(dp) :: row(3, 3)
+    row = 1
+    row(1, :) = [1.0_dp, 2.0_dp, 3.0_dp]
+    call neighbours%create(reshape([2.5_dp, 1.5_dp, 1.5_dp, 0.0_dp], [2, 2]), half=.true.)
+    call neighbours%find(row, cube, pairs, [1, 2, 1])
+    call expect(all(pairs%first == [1, 1, 2]) .and. all(pairs%second == [2, 3, 3]), "each pair of species has its cutoff")
+    call neighbours%find(row, cube, pairs, [2, 2, 1])
+    call expect(all(pairs%first == [2]) .and. all(pairs%second == [3]), "those of cutoff 0 are never listed")
+    call neighbours%find(row, cube, pairs, [1, 2], stat, errmsg)
+    call refused(stat, errmsg, "species has 2 elements: 3 are needed")
+    call neighbours%find(row, cube, pairs, [1, 2, 3], stat, errmsg)
+    call refused(stat, errmsg, "species 2")
+    call neighbours%create(reshape([1.0_dp, 2.0_dp], [2, 1]), stat=stat, errmsg=errmsg)
+    call refused(stat, errmsg, "cutoffs must be (S, S)")
+    call neighbours%create(reshape([1.0_dp, 2.0_dp, 3.0_dp, 1.0_dp], [2, 2]), stat=stat, errmsg=errmsg)
+    call refused(stat, errmsg, "must be equal")
+    call neighbours%create(1.5_dp, origin=[0.5_dp, 0.0_dp, 0.0_dp], stat=stat)
+    call neighbours%find(row, cube, pairs)
+    call expect(stat == lanescape_ok .and. size(pairs%first) == 4, "the box's corner is free")
+  end subroutine species_have_their_cutoffs
+
+  subroutine points_have_neighbours()
+    type(lanescape_neighbours) :: neighbours
+    type(lanescape_pairs) :: pairs
+    real(dp) :: points(3, 2)
+    points = reshape([5.0_dp, 5.0_dp, 5.0_dp, 9.9_dp, 1.0_dp, 2.0_dp], [3, 2])
+    call neighbours%create(0.5_dp)
+    call neighbours%find_around(points, pairs, stat=stat, errmsg=errmsg)
+    call expect(stat == lanescape_bad_input, "particles are needed first")
+    call neighbours%set_particles(apart, cube)
+    call neighbours%find_around(points, pairs)
+    call expect(all(pairs%first == [2, 2]) .and. all(pairs%second == [1, 2]), "points have the particles within the cutoff")
+    call expect(all(abs(pairs%distance - [0.4_dp, 0.35_dp]) < 1e-12_dp), "at their distances")
+    call expect(all(pairs%shift(:, 2) == [1, 0, 0]) .and. abs(pairs%separation(1, 1) + 0.4_dp) < 1e-12_dp, "across faces too")
+    call neighbours%find_around(points(:2, :), pairs, stat=stat, errmsg=errmsg)
+    call refused(stat, errmsg, "points has the shape (2, 2)")
+    call neighbours%create(reshape([0.5_dp, 0.0_dp, 0.0_dp, 0.5_dp], [2, 2]))
+    call neighbours%set_particles(apart, cube, [1, 2])
+    call neighbours%find_around(points, pairs, [1, 2])
+    call expect(all(pairs%first == [2]) .and. all(pairs%second == [2]), "and points have species")
+  end subroutine points_have_neighbours
 
   subroutine overlaps_are_found()
     type(lanescape_hard_spheres) :: spheres
