@@ -173,8 +173,13 @@ double StateSystem::energy_and_gradient(std::span<const double> positions, std::
 }
 
 Evaluation StateSystem::evaluate(std::span<const double> positions, const Outputs& outputs) {
+  check_positions(positions.size(), particles());
+  return evaluate(Vectors<const double>::interleaved(positions), outputs);
+}
+
+Evaluation StateSystem::evaluate(const Vectors<const double>& positions, const Outputs& outputs) {
   auto& [model, species, box, arrays, interaction] = *implementation_;
-  const AlignedArray& slots = implementation_->positions(positions);
+  const AlignedArray& slots = arrays.positions(positions);
   if (!outputs.energies.empty()) {
     interaction.energies(slots, arrays.energies());
     arrays.write_energies(outputs.energies);

@@ -49,6 +49,26 @@ void with_pairs(const lanescape_potential* potential, const Work& work) {
   with_kind<Potential>(potential, "pairs", work);
 }
 
+template <class Number, class Given>
+Vectors<Number> strided(const Given& vectors, std::size_t particles, const std::string& argument) {
+  const std::pair<const char*, Number*> columns[] = {{"->x", vectors.x}, {"->y", vectors.y}, {"->z", vectors.z}};
+  for (const auto& [name, column] : columns) array(column, particles, (argument + name).c_str());
+  if (vectors.stride == 0) refuse("argument " + argument + "->stride is 0: 1, 3 or another number is needed");
+  return {vectors.x, vectors.y, vectors.z, particles, vectors.stride};
+}
+
+void evaluate(auto& potential, const Vectors<const double>& positions, const Vectors<double>& forces,
+              const lanescape_outputs& out) {
+  Outputs wanted;
+  wanted.forces = forces;
+  if (out.energies != nullptr) wanted.energies = {out.energies, potential.particles()};
+  wanted.stress = out.stress != nullptr || (out.virial != nullptr && forces.x == nullptr);
+  const Evaluation e = potential.evaluate(positions, wanted);
+  if (out.energy != nullptr) *out.energy = e.energy;
+  if (out.virial != nullptr) *out.virial = e.virial;
+  copy_out(e.stress, out.stress);
+}
+
 }  // namespace
 
 lanescape_status lanescape_potential_options_init(lanescape_potential_options* options, size_t size) {
@@ -89,7 +109,7 @@ lanescape_status lanescape_potential_set_exclusions(lanescape_potential* potenti
 }
 
 lanescape_status lanescape_potential_set_box(lanescape_potential* potential, const double box[3]) {
-  return guarded([&] { with_pairs(potential, [&](Potential& p) { p.set_box(three(box, "box")); }); });
+  return guarded([&] { with(*shared_of(potential), [&](auto& p) { p.set_box(three(box, "box")); }); });
 }
 
 lanescape_status lanescape_potential_particles(const lanescape_potential* potential, size_t* particles) {
@@ -102,14 +122,23 @@ lanescape_status lanescape_potential_evaluate(lanescape_potential* potential, co
     with(*shared_of(potential), [&](auto& evaluated) {
       const auto& out = sized(outputs, "outputs", "lanescape_outputs");
       const std::size_t n = evaluated.particles();
-      Outputs wanted;
-      if (out.forces != nullptr) wanted.forces = Vectors<double>::interleaved({out.forces, 3 * n});
-      if (out.energies != nullptr) wanted.energies = {out.energies, n};
-      wanted.stress = out.stress != nullptr || (out.virial != nullptr && out.forces == nullptr);
-      const Evaluation e = evaluated.evaluate(vectors(positions, n, "positions"), wanted);
-      if (out.energy != nullptr) *out.energy = e.energy;
-      if (out.virial != nullptr) *out.virial = e.virial;
-      copy_out(e.stress, out.stress);
+      Vectors<double> forces;
+      if (out.forces != nullptr) forces = Vectors<double>::interleaved({out.forces, 3 * n});
+      evaluate(evaluated, Vectors<const double>::interleaved(vectors(positions, n, "positions")), forces, out);
+    });
+  });
+}
+
+lanescape_status lanescape_potential_evaluate_strided(lanescape_potential* potential, const lanescape_positions* positions,
+                                                      const lanescape_outputs* outputs, const lanescape_forces* forces) {
+  return guarded([&] {
+    with(*shared_of(potential), [&](auto& evaluated) {
+      const auto& out = sized(outputs, "outputs", "lanescape_outputs");
+      if (out.forces != nullptr) refuse("argument outputs->forces must be NULL: forces have an argument of their own");
+      const std::size_t n = evaluated.particles();
+      Vectors<double> to;
+      if (forces != nullptr) to = strided<double>(sized(forces, "forces", "lanescape_forces"), n, "forces");
+      evaluate(evaluated, strided<const double>(sized(positions, "positions", "lanescape_positions"), n, "positions"), to, out);
     });
   });
 }

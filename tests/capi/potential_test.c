@@ -112,6 +112,35 @@ static void a_move_changes_the_energy(void) {
   OK(lanescape_model_destroy(model));
 }
 
+// The same numbers in arrays of x, y and z, in rows of four, and from the last to the first.
+static void strided_arrays_give_the_same(lanescape_potential* potential, size_t n, const double* positions) {
+  enum { most = 64 };
+  double energy[2], virial, forces[3 * most], separate[2][3][most], rows[2][4 * most], reverse[2][3 * most];
+  lanescape_outputs outputs = {.size = sizeof outputs, .energy = energy, .virial = &virial, .forces = forces};
+  OK(lanescape_potential_evaluate(potential, positions, &outputs));
+  const double expected = virial;
+  outputs = (lanescape_outputs){.size = sizeof outputs, .energy = energy + 1, .virial = &virial};
+  for (size_t i = 0; i < n; ++i)
+    for (size_t k = 0; k < 3; ++k) separate[0][k][i] = rows[0][4 * i + k] = reverse[0][3 * (n - 1 - i) + k] = positions[3 * i + k];
+  double *p = reverse[0] + 3 * (n - 1), *f = reverse[1] + 3 * (n - 1);
+  const lanescape_positions from[] = {{sizeof from[0], separate[0][0], separate[0][1], separate[0][2], 1},
+                                      {sizeof from[0], rows[0], rows[0] + 1, rows[0] + 2, 4},
+                                      {sizeof from[0], p, p + 1, p + 2, -3}};
+  const lanescape_forces to[] = {{sizeof to[0], separate[1][0], separate[1][1], separate[1][2], 1},
+                                 {sizeof to[0], rows[1], rows[1] + 1, rows[1] + 2, 4},
+                                 {sizeof to[0], f, f + 1, f + 2, -3}};
+  for (int k = 0; k < 3; ++k) {
+    OK(lanescape_potential_evaluate_strided(potential, from + k, &outputs, to + k));
+    CHECK(energy[0] == energy[1] && virial == expected);
+    OK(lanescape_potential_evaluate_strided(potential, from + k, &outputs, NULL));
+    CHECK(energy[0] == energy[1]);
+  }
+  for (size_t i = 0; i < n; ++i)
+    for (size_t k = 0; k < 3; ++k)
+      CHECK(separate[1][k][i] == forces[3 * i + k] && rows[1][4 * i + k] == forces[3 * i + k] &&
+            reverse[1][3 * (n - 1 - i) + k] == forces[3 * i + k]);
+}
+
 static void sites_have_states(void) {
   enum { sites = 64 };
   int species[sites];
@@ -127,11 +156,15 @@ static void sites_have_states(void) {
   CHECK(states == 2 && energy != 0.0);
   OK(lanescape_potential_states(potential, NULL, order, states == 2 ? p : NULL));
   for (int i = 0; i < sites; ++i) CHECK(order[i] > 0.0 && near(p[2 * i] + p[2 * i + 1], 1.0, 1e-14));
+  strided_arrays_give_the_same(potential, sites, positions);
   lanescape_dynamics* dynamics = NULL;
   OK(lanescape_dynamics_create(potential, NULL, positions, 0.001, &dynamics));
   OK(lanescape_dynamics_run(dynamics, 2));
   OK(lanescape_dynamics_destroy(dynamics));
-  REFUSED(lanescape_potential_set_box(potential, box), "one of pairs is needed");
+  const double longer[3] = {box[0], box[1], 1.1 * box[2]}, before = energy;
+  OK(lanescape_potential_set_box(potential, longer));
+  OK(lanescape_potential_evaluate(potential, positions, &outputs));
+  CHECK(energy != before);
   lanescape_potential* copy = NULL;
   REFUSED(lanescape_potential_copy(potential, &copy), "one of pairs is needed");
   OK(lanescape_potential_destroy(potential));
@@ -140,6 +173,30 @@ static void sites_have_states(void) {
   options.precision = "mixed";
   REFUSED(lanescape_potential_create(model, sites, species, box, &options, &potential), "precision mixed is not possible");
   OK(lanescape_model_destroy(model));
+}
+
+static void arrays_may_be_separate(void) {
+  lanescape_potential* potential = plain_pair(NULL);
+  strided_arrays_give_the_same(potential, 2, apart);
+  double forces[6], energy = 7.0;
+  lanescape_outputs outputs = {.size = sizeof outputs, .energy = &energy, .forces = forces};
+  lanescape_positions from = {sizeof from, apart, apart + 1, apart + 2, 3};
+  lanescape_forces to = {sizeof to, forces, forces + 1, NULL, 3};
+  REFUSED(lanescape_potential_evaluate_strided(potential, &from, &outputs, NULL), "argument outputs->forces must be NULL");
+  outputs.forces = NULL;
+  REFUSED(lanescape_potential_evaluate_strided(potential, &from, &outputs, &to), "argument forces->z is NULL");
+  to.size = 8;
+  REFUSED(lanescape_potential_evaluate_strided(potential, &from, &outputs, &to), "is not known");
+  from.y = NULL;
+  REFUSED(lanescape_potential_evaluate_strided(potential, &from, &outputs, NULL), "argument positions->y is NULL");
+  from.y = apart + 1;
+  from.stride = 0;
+  REFUSED(lanescape_potential_evaluate_strided(potential, &from, &outputs, NULL), "argument positions->stride is 0");
+  REFUSED(lanescape_potential_evaluate_strided(potential, NULL, &outputs, NULL), "argument positions is NULL");
+  from.stride = 3;
+  REFUSED(lanescape_potential_evaluate_strided(potential, &from, NULL, NULL), "argument outputs is NULL");
+  CHECK(energy == 7.0);
+  OK(lanescape_potential_destroy(potential));
 }
 
 static void bad_systems_are_refused(void) {
@@ -205,6 +262,7 @@ int main(void) {
   excluded_pairs_do_not_interact();
   a_move_changes_the_energy();
   sites_have_states();
+  arrays_may_be_separate();
   bad_systems_are_refused();
   bad_evaluations_are_refused();
   return failures != 0;

@@ -149,7 +149,7 @@ lanescape_status lanescape_potential_options_init(lanescape_potential_options* o
 // species: of each particle, from 0. options may be NULL.
 lanescape_status lanescape_potential_create(const lanescape_model* model, size_t particles, const int* species, const double box[3],
                                             const lanescape_potential_options* options, lanescape_potential** potential);
-// An object of its own; this and the next two are for pair potentials.
+// An object of its own; pair potentials have copies and exclusions, sites in states have not.
 lanescape_status lanescape_potential_copy(const lanescape_potential* potential, lanescape_potential** copy);
 lanescape_status lanescape_potential_particles(const lanescape_potential* potential, size_t* particles);
 // Pairs of particles that do not interact, such as bonded ones, in place of those before: 2 particles of each. Only the nearest
@@ -159,6 +159,20 @@ lanescape_status lanescape_potential_set_box(lanescape_potential* potential, con
 // Positions may lie anywhere; they are wrapped.
 lanescape_status lanescape_potential_evaluate(lanescape_potential* potential, const double* positions,
                                               const lanescape_outputs* outputs);
+// N vectors in the caller's memory: x of particle i is x[i * stride], and so on. Separate arrays have stride 1, interleaved ones 3.
+typedef struct lanescape_positions {
+  size_t size;
+  const double *x, *y, *z;
+  ptrdiff_t stride;
+} lanescape_positions;
+typedef struct lanescape_forces {
+  size_t size;
+  double *x, *y, *z;
+  ptrdiff_t stride;
+} lanescape_forces;
+// As lanescape_potential_evaluate(), with arrays of this shape: forces, or NULL, are in place of outputs->forces, which is NULL.
+lanescape_status lanescape_potential_evaluate_strided(lanescape_potential* potential, const lanescape_positions* positions,
+                                                      const lanescape_outputs* outputs, const lanescape_forces* forces);
 // Of the last evaluation of sites in states: how many states sites have, order parameters, N, and probabilities, N x states. What
 // is NULL is not written.
 lanescape_status lanescape_potential_states(const lanescape_potential* potential, size_t* states, double* order_parameters,

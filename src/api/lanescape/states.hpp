@@ -72,6 +72,7 @@ class LANESCAPE_API StateSystem final : public Landscape {
   double energy_and_gradient(std::span<const double> positions, std::span<double> gradient) override;
   // Outputs::energies: the one-body terms of each site and half of each of its pairs at the present probabilities.
   Evaluation evaluate(std::span<const double> positions, const Outputs& outputs);
+  Evaluation evaluate(const Vectors<const double>& positions, const Outputs& outputs);
 
   // Of the last evaluation: order parameters, N, and probabilities, N x states().
   std::size_t states() const;
