@@ -10,7 +10,7 @@ using namespace lanescape::capi;
 
 struct lanescape_moves : Handle<ParticleMoves> {};
 
-namespace {
+namespace lanescape::capi {
 
 Potential::Options options_of(const lanescape_potential_options* given, std::size_t particles) {
   Potential::Options options;
@@ -24,13 +24,23 @@ Potential::Options options_of(const lanescape_potential_options* given, std::siz
   return options;
 }
 
-std::shared_ptr<SoftPotential> make_potential(const Model& model, std::span<const int> species, const std::array<double, 3>& box,
-                                              const Potential::Options& options) {
-  if (!model.has_states()) return std::make_shared<SoftPotential>(Potential(model, species, box, options));
+std::shared_ptr<SoftPotential> make_states(const Model& model, std::span<const int> species, const std::array<double, 3>& box,
+                                           const Potential::Options& options, std::shared_ptr<SiteOrderParameter> order_parameter,
+                                           std::shared_ptr<SiteResponse> response) {
   if (options.precision != Potential::Options{}.precision)
     refuse("precision " + options.precision + " is not possible for sites in states: double is needed");
   return std::make_shared<SoftPotential>(StateSystem(
-      model, species, box, StateSystem::Options{.threads = options.threads, .instruction_set = options.instruction_set}));
+      model, species, box, {options.threads, options.instruction_set, std::move(order_parameter), std::move(response)}));
+}
+
+}  // namespace lanescape::capi
+
+namespace {
+
+std::shared_ptr<SoftPotential> make_potential(const Model& model, std::span<const int> species, const std::array<double, 3>& box,
+                                              const Potential::Options& options) {
+  if (!model.has_states()) return std::make_shared<SoftPotential>(Potential(model, species, box, options));
+  return make_states(model, species, box, options, nullptr, nullptr);
 }
 
 // Does the work of a function that only potentials of this kind have.

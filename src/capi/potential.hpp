@@ -47,6 +47,12 @@ struct lanescape_potential : lanescape::capi::Handle<std::shared_ptr<lanescape::
 
 namespace lanescape::capi {
 
+Potential::Options options_of(const lanescape_potential_options* given, std::size_t particles);
+// Sites in states; the last two in place of the model's, or none.
+std::shared_ptr<SoftPotential> make_states(const Model& model, std::span<const int> species, const std::array<double, 3>& box,
+                                           const Potential::Options& options, std::shared_ptr<SiteOrderParameter> order_parameter,
+                                           std::shared_ptr<SiteResponse> response);
+
 // Stays valid if the handle is destroyed meanwhile.
 inline std::shared_ptr<SoftPotential> shared_of(const lanescape_potential* potential) {
   const Occupied occupied(given(potential, "potential").busy, "potential");

@@ -382,3 +382,4 @@ lanescape_status lanescape_path_destroy(lanescape_path* path);
 #endif
 
 #include <lanescape/dynamics.h>
+#include <lanescape/states.h>
