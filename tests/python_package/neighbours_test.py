@@ -114,6 +114,26 @@ class NeighbourListTest(unittest.TestCase):
         pairs.exclusions = np.empty((0, 2), dtype=int)
         self.assertEqual(len(pairs.compute(one.positions, one.cell.lengths())[0]), len(i))
 
+    def test_neighbours_of_other_points_are_those_of_all_pairs(self):
+        one, queries = atoms(40), atoms(9, seed=5).positions
+        species, query_species = np.arange(40) % 2, np.arange(9) % 2
+        shifts = np.array([[a, b, c] for a in range(-3, 4) for b in range(-3, 4) for c in range(-3, 4)])
+        for pbc in (True, (True, False, True)):
+            far = one.positions[None, :, None] - queries[:, None, None] + (shifts * one.cell.lengths())[None, None]
+            allowed = np.all((shifts == 0) | np.broadcast_to(pbc, 3), axis=1)
+            distance = np.where(allowed, np.linalg.norm(far, axis=-1), np.inf)
+            for cutoff, within in ((2.0, 2.0), ([[2.0, 0.0], [0.0, 1.0]], np.where(query_species[:, None] == species, 2.0 - query_species[:, None], 0.0)[..., None])):
+                pairs = lanescape.NeighbourList(cutoff, full_list=False, sorted=True)
+                kinds = {} if cutoff == 2.0 else {"query_species": query_species, "species": species}
+                i, j, shift, d, starts = pairs.compute_around(queries, one.positions, one.cell.lengths(), pbc, "ijSds", **kinds)
+                expected = np.argwhere(distance < within)
+                np.testing.assert_array_equal(np.column_stack((i, j)), expected[:, :2])
+                np.testing.assert_array_equal(shift, shifts[expected[:, 2]])
+                np.testing.assert_allclose(d, distance[tuple(expected.T)], atol=1e-12)
+                np.testing.assert_array_equal(np.diff(starts), np.bincount(i, minlength=9))
+        with self.assertRaises(lanescape.InputError):
+            lanescape.NeighbourList(2.0).compute_around(queries[:, :2], one.positions, one.cell.lengths())
+
     def test_arrays_outlive_later_calls_and_their_object(self):
         one, other = atoms(), atoms(seed=2, particles=100)
         pairs = lanescape.NeighbourList(2.0, sorted=True)

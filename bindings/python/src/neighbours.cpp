@@ -26,6 +26,8 @@ class NeighbourList {
   explicit NeighbourList(NeighbourFinder::Options options) : options_(std::move(options)) { NeighbourFinder check(options_); }
 
   nb::tuple compute(ArrayLike points, ArrayLike box, nb::handle periodic, const std::string& quantities, ArrayLike species);
+  nb::tuple compute_around(ArrayLike queries, ArrayLike points, ArrayLike box, nb::handle periodic, const std::string& quantities,
+                           ArrayLike query_species, ArrayLike species);
   // Pairs that are never listed.
   void exclude(std::vector<Excluded> pairs);
   nb::object exclusions() const;
@@ -83,6 +85,27 @@ nb::object view(const std::shared_ptr<NeighbourFinder>& finder, std::span<const 
   return nb::cast(nb::ndarray<nb::numpy, Number>(const_cast<Number*>(numbers.data()), columns == 1 ? 1 : 2, shape, owner));
 }
 
+nb::tuple arrays_of(const std::shared_ptr<NeighbourFinder>& finder, const NeighbourFinder::Pairs& pairs,
+                    const std::string& quantities) {
+  nb::list arrays;
+  for (const char c : quantities) {
+    if (c == 'i') arrays.append(view(finder, pairs.i, 1));
+    if (c == 'j') arrays.append(view(finder, pairs.j, 1));
+    if (c == 'S') arrays.append(view(finder, pairs.S, 3));
+    if (c == 'D') arrays.append(view(finder, pairs.D, 3));
+    if (c == 'd') arrays.append(view(finder, pairs.d, 1));
+    if (c == 's') arrays.append(view(finder, pairs.segments, 1));
+  }
+  return nb::tuple(arrays);
+}
+
+std::vector<std::int32_t> kinds_of(ArrayLike species) {
+  std::vector<std::int32_t> kinds;
+  if (!species.is_none())
+    for (const std::int64_t s : integers_of(species, "species")) kinds.push_back(s < 0 || s > 1'000'000 ? -1 : static_cast<int>(s));
+  return kinds;
+}
+
 void NeighbourList::prepare(const NeighbourFinder::Options& wanted) {
   const auto same = [](const NeighbourFinder::Quantities& a, const NeighbourFinder::Quantities& b) {
     return a.i == b.i && a.j == b.j && a.S == b.S && a.D == b.D && a.d == b.d && a.segments == b.segments;
@@ -118,9 +141,7 @@ nb::tuple NeighbourList::compute(ArrayLike points, ArrayLike box, nb::handle per
                                  ArrayLike species) {
   const Numbers given = Numbers::vectors(points, "points");
   const auto edges = cell_of(box);
-  std::vector<std::int32_t> kinds;
-  if (!species.is_none())
-    for (const std::int64_t s : integers_of(species, "species")) kinds.push_back(s < 0 || s > 1'000'000 ? -1 : static_cast<int>(s));
+  const std::vector<std::int32_t> kinds = kinds_of(species);
   NeighbourFinder::Options wanted = options_;
   wanted.periodic = periodic_of(periodic);
   wanted.quantities = quantities_of(quantities);
@@ -130,16 +151,25 @@ nb::tuple NeighbourList::compute(ArrayLike points, ArrayLike box, nb::handle per
     finder = finder_;
     return finder_->find(given.values(), edges, kinds);
   });
-  nb::list arrays;
-  for (const char c : quantities) {
-    if (c == 'i') arrays.append(view(finder, pairs.i, 1));
-    if (c == 'j') arrays.append(view(finder, pairs.j, 1));
-    if (c == 'S') arrays.append(view(finder, pairs.S, 3));
-    if (c == 'D') arrays.append(view(finder, pairs.D, 3));
-    if (c == 'd') arrays.append(view(finder, pairs.d, 1));
-    if (c == 's') arrays.append(view(finder, pairs.segments, 1));
-  }
-  return nb::tuple(arrays);
+  return arrays_of(finder, pairs, quantities);
+}
+
+nb::tuple NeighbourList::compute_around(ArrayLike queries, ArrayLike points, ArrayLike box, nb::handle periodic,
+                                        const std::string& quantities, ArrayLike query_species, ArrayLike species) {
+  const Numbers around = Numbers::vectors(queries, "queries"), given = Numbers::vectors(points, "points");
+  const auto edges = cell_of(box);
+  const std::vector<std::int32_t> query_kinds = kinds_of(query_species), kinds = kinds_of(species);
+  NeighbourFinder::Options wanted = options_;
+  wanted.periodic = periodic_of(periodic);
+  wanted.quantities = quantities_of(quantities);
+  std::shared_ptr<NeighbourFinder> finder;
+  const NeighbourFinder::Pairs pairs = unlocked(lock_, [&] {
+    prepare(wanted);
+    finder = finder_;
+    finder_->set_particles(given.values(), edges, kinds);
+    return finder_->neighbours(around.values(), query_kinds);
+  });
+  return arrays_of(finder, pairs, quantities);
 }
 
 NeighbourFinder::Options options_of(ArrayLike cutoff, bool full_list, bool sorted, int threads,
@@ -185,6 +215,10 @@ void bind_neighbours(nb::module_& module) {
            "points: (N, 3), wrapped or not. box: edges, (3,), or the matrix of an orthorhombic cell. periodic: for all axes or "
            "each.\n"
            "species: (N,), from 0, where cutoff is a matrix.\n\nRaises InputError.")
+      .def("compute_around", &NeighbourList::compute_around, "queries"_a, "points"_a, "box"_a, "periodic"_a = true,
+           "quantities"_a = "ijSDd", "query_species"_a = nb::none(), "species"_a = nb::none(),
+           "As compute, of other points: i numbers the queries, (M, 3), and j the points. All of them within the cutoff, whatever\n"
+           "full_list and exclusions say.\n\nRaises InputError.")
       .def_prop_rw(
           "exclusions", &NeighbourList::exclusions, [](NeighbourList& self, ArrayLike pairs) { self.exclude(excluded_of(pairs)); },
           "Pairs (i, j) that are never listed in either direction, such as bonded ones, (K, 2), int64.")
