@@ -19,6 +19,8 @@ module lanescape_trajectories
     procedure :: run
     procedure :: describe
     procedure :: get
+    procedure :: save_state
+    procedure :: restore_state
     final :: forget_host
   end type lanescape_dynamics
 
@@ -77,6 +79,17 @@ module lanescape_trajectories
       import
       type(c_ptr), value :: dynamics, positions, velocities
     end function get_c
+    integer(c_int) function save_c(dynamics, state, capacity, needed) bind(c, name="lanescape_dynamics_save")
+      import
+      type(c_ptr), value :: dynamics, state
+      integer(c_size_t), value :: capacity
+      integer(c_size_t), intent(inout) :: needed
+    end function save_c
+    integer(c_int) function restore_c(dynamics, state, bytes) bind(c, name="lanescape_dynamics_restore")
+      import
+      type(c_ptr), value :: dynamics, state
+      integer(c_size_t), value :: bytes
+    end function restore_c
     integer(c_int) function dynamics_destroy_c(handle) bind(c, name="lanescape_dynamics_destroy")
       import
       type(c_ptr), value :: handle
@@ -218,4 +231,32 @@ contains
       call conclude(get_c(self%handle(), c_null_ptr, c_null_ptr), stat, errmsg)
     end if
   end subroutine get
+
+  ! The state as bytes, from which restore_state goes on with the same bits.
+  subroutine save_state(self, state, stat, errmsg)
+    class(lanescape_dynamics), intent(inout) :: self
+    integer(c_int8_t), intent(out), allocatable, target :: state(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_size_t) :: needed
+    integer(c_int) :: status
+    status = save_c(self%handle(), c_null_ptr, 0_c_size_t, needed)
+    if (status == lanescape_ok) then
+      allocate (state(needed))
+      status = save_c(self%handle(), c_loc(state(1)), needed, needed)
+    end if
+    call conclude(status, stat, errmsg)
+  end subroutine save_state
+
+  ! Goes on from a state that an object made with the same arguments saved.
+  subroutine restore_state(self, state, stat, errmsg)
+    class(lanescape_dynamics), intent(inout) :: self
+    integer(c_int8_t), intent(in), target, contiguous :: state(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (size(state) > 0) address = c_loc(state(1))
+    call conclude(restore_c(self%handle(), address, size(state, kind=c_size_t)), stat, errmsg)
+  end subroutine restore_state
 end module lanescape_trajectories

@@ -16,6 +16,8 @@ module lanescape_collisions
     procedure :: advance_to
     procedure :: describe
     procedure :: get
+    procedure :: save_state
+    procedure :: restore_state
   end type lanescape_event_driven
 
   type, public :: lanescape_event_driven_report
@@ -69,6 +71,17 @@ module lanescape_collisions
       import
       type(c_ptr), value :: dynamics, positions, velocities
     end function get_c
+    integer(c_int) function save_c(dynamics, state, capacity, needed) bind(c, name="lanescape_event_driven_save")
+      import
+      type(c_ptr), value :: dynamics, state
+      integer(c_size_t), value :: capacity
+      integer(c_size_t), intent(inout) :: needed
+    end function save_c
+    integer(c_int) function restore_c(dynamics, state, bytes) bind(c, name="lanescape_event_driven_restore")
+      import
+      type(c_ptr), value :: dynamics, state
+      integer(c_size_t), value :: bytes
+    end function restore_c
     integer(c_int) function destroy_event_driven_c(handle) bind(c, name="lanescape_event_driven_destroy")
       import
       type(c_ptr), value :: handle
@@ -171,4 +184,33 @@ contains
     end if
     call conclude(get_c(self%handle(), to(1), to(2)), stat, errmsg)
   end subroutine get
+
+  ! The state as bytes, from which restore_state goes on with the same bits. All spheres are brought to one
+  ! time first: the trajectory goes on with other bits than without.
+  subroutine save_state(self, state, stat, errmsg)
+    class(lanescape_event_driven), intent(inout) :: self
+    integer(c_int8_t), intent(out), allocatable, target :: state(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_size_t) :: needed
+    integer(c_int) :: status
+    status = save_c(self%handle(), c_null_ptr, 0_c_size_t, needed)
+    if (status == lanescape_ok) then
+      allocate (state(needed))
+      status = save_c(self%handle(), c_loc(state(1)), needed, needed)
+    end if
+    call conclude(status, stat, errmsg)
+  end subroutine save_state
+
+  ! Goes on from a state that an object made with the same arguments saved.
+  subroutine restore_state(self, state, stat, errmsg)
+    class(lanescape_event_driven), intent(inout) :: self
+    integer(c_int8_t), intent(in), target, contiguous :: state(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (size(state) > 0) address = c_loc(state(1))
+    call conclude(restore_c(self%handle(), address, size(state, kind=c_size_t)), stat, errmsg)
+  end subroutine restore_state
 end module lanescape_collisions

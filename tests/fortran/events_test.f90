@@ -18,7 +18,7 @@ contains
 end module reports
 
 program events_test
-  use, intrinsic :: iso_fortran_env, only: int64
+  use, intrinsic :: iso_fortran_env, only: int8, int64
   use lanescape
   use check
   use reports
@@ -29,6 +29,7 @@ program events_test
 
   call spheres_collide()
   call bad_spheres_are_refused()
+  call states_are_kept()
   call end_points_are_made()
   call progress_ends_work()
   call finish()
@@ -82,6 +83,45 @@ contains
     call dynamics%get(overlapping(:, :1), stat=stat, errmsg=errmsg)
     call refused(stat, errmsg, "positions has the shape (3, 1)")
   end subroutine bad_spheres_are_refused
+
+  subroutine states_are_kept()
+    type(lanescape_model) :: model
+    type(lanescape_potential) :: potential
+    type(lanescape_dynamics) :: dynamics
+    type(lanescape_event_driven) :: spheres
+    integer :: species(n)
+    integer(int8), allocatable :: state(:), none(:)
+    real(dp) :: positions(3, n), box(3), there(3, n), again(3, n), radii(n)
+    call model%named("lennard-jones")
+    call model%make_start(0.8_dp, species, positions, box)
+    call potential%create(model, species, box)
+    call dynamics%create(potential, positions, 0.002_dp)
+    call dynamics%draw_velocities(1.0_dp, 7)
+    call dynamics%run(10)
+    call dynamics%save_state(state)
+    call dynamics%run(10)
+    call dynamics%get(there)
+    call dynamics%restore_state(state)
+    call dynamics%run(10)
+    call dynamics%get(again)
+    call expect(all(abs(there - again) <= 0), "molecular dynamics goes on with the same bits")
+    call dynamics%restore_state(state(:3), stat, errmsg)
+    call refused(stat, errmsg, "cut or changed")
+    radii = 0.4_dp
+    call spheres%create(radii, positions, box)
+    call spheres%draw_velocities(7)
+    call spheres%collide(100)
+    call spheres%save_state(state)
+    call spheres%collide(100)
+    call spheres%get(there)
+    call spheres%restore_state(state)
+    call spheres%collide(100)
+    call spheres%get(again)
+    call expect(all(abs(there - again) <= 0), "so do spheres")
+    allocate (none(0))
+    call spheres%restore_state(none, stat, errmsg)
+    call expect(stat == lanescape_bad_input, "no bytes are no state")
+  end subroutine states_are_kept
 
   subroutine end_points_are_made()
     type(lanescape_model) :: model
