@@ -148,8 +148,11 @@ void call(lanescape_kernel* kernel, const PairCase& one, Exchange& exchange, std
   lanescape_kernel_output output{sizeof output, LANESCAPE_KERNEL_ENERGY | LANESCAPE_KERNEL_FORCES | LANESCAPE_KERNEL_VIRIAL,
                                  untouched, forces.data(), untouched};
   alarm(seconds_per_case);
-  record.status = kernel(&input.input, &output);
+  const pid_t own = getpid();
+  const int status = kernel(&input.input, &output);
+  if (getpid() != own) _exit(0);  // a child that the kernel has made: it would go on with the cases, and its children too
   alarm(0);
+  record.status = status;
   const auto changed = [](double x) { return std::bit_cast<std::uint64_t>(x) != std::bit_cast<std::uint64_t>(untouched); };
   record.overrun = std::any_of(forces.end() - guard, forces.end(), changed);
   record.computed = output.computed;

@@ -128,7 +128,7 @@ class Check(HostCases):
         self.assertIn("energy: expected", self.check(status=1)["summary"])
 
     def test_malformed_results_are_refused(self):
-        for text, says in ((" {", "line 1"), ('{"a":\n NaN}', ("line 2", "NaN", "null")), ("", "no JSON"), ("[]", "an object"), ("3", "an object")):
+        for text, says in ((" {", "line 1"), ('{"a": 1e400}', "1e400"), ('{"a":\n NaN}', ("line 2", "NaN", "null")), ("", "no JSON"), ("[]", "an object"), ("3", "an object")):
             self.answer(None, text)
             self.check_refused(("host_results.json", *((says,) if isinstance(says, str) else says)))
 

@@ -65,6 +65,9 @@ class RightKernels(HostTest):
         result = self.verify("declines_all_but_one")
         self.assertEqual((result["compared"], result["declined"]), (1, result["cases"] - 1))
 
+    def test_children_of_a_kernel_do_not_go_on_with_the_cases(self):
+        self.assertEqual(self.verify("leaves_a_child")["failed"], 0)
+
     def test_what_a_kernel_prints_does_not_mix_with_the_result(self):
         run = lanescape("verify", "--library", DOUBLE, "--symbol", "chats")
         self.assertTrue(run.stdout.startswith("{"))

@@ -100,6 +100,8 @@ Json parse(const std::filesystem::path& file) {
   const std::string text = content(file);
   try {
     return Json::parse(text);
+  } catch (const Json::out_of_range& error) {
+    refuse(file.string(), fmt::format("a number is out of range ({}): null is allowed for one that is not finite", error.what()));
   } catch (const Json::parse_error& error) {
     const std::size_t end = std::min(error.byte, text.size());
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');

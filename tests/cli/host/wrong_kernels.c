@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "right_kernel.h"
 
@@ -63,6 +64,11 @@ KERNEL(writes_beyond_its_forces) {
 KERNEL(returns_seven) {
   right_kernel(in, out);
   return 7;
+}
+
+KERNEL(leaves_a_child) {
+  if (fork() == 0) return LANESCAPE_KERNEL_DONE;
+  return right_kernel(in, out);
 }
 
 KERNEL(chats) {
