@@ -62,6 +62,13 @@ def wheel(folder, python, tree, *options):
     return built
 
 
+def check_sources(folder, python, tree):
+    """The source distribution has all that CMake asks for."""
+    run("cmake", "-S", tree, "-B", folder / "configured", "-DCMAKE_BUILD_TYPE=Release", "-DLANESCAPE_BUILD_PYTHON=ON", "-DLANESCAPE_BUILD_TESTS=OFF",
+        "-DLANESCAPE_BUILD_BENCHMARKS=OFF", "-DLANESCAPE_BUILD_PROGRAM=OFF", "-DLANESCAPE_INSTALL=OFF", f"-DPython_EXECUTABLE={python}",
+        stdout=subprocess.DEVNULL)
+
+
 def check_contents(built):
     names = zipfile.ZipFile(built).namelist()
     print(built.name, built.stat().st_size, "bytes")
@@ -95,6 +102,7 @@ def main():
         if given.whole:
             built = wheel(folder, python, tree)
         else:
+            check_sources(folder, python, tree)
             run("cmake", "--install", given.library, "--prefix", folder / "prefix", "--component", "CXX", stdout=subprocess.DEVNULL)
             built = wheel(folder, python, tree, "--config-settings", "cmake.source-dir=bindings/python", "--config-settings", f"cmake.define.lanescape_ROOT={folder / 'prefix'}")
         check_contents(built)
