@@ -1,7 +1,9 @@
 """ASE's calculators over the library, and ASE's own as landscapes."""
 
 import copy
+import json
 import pickle
+import tempfile
 import unittest
 
 import numpy as np
@@ -10,7 +12,13 @@ from ase.build import bulk, make_supercell
 from ase.calculators.calculator import CalculatorSetupError, PropertyNotImplementedError
 from ase.calculators.emt import EMT
 from ase.calculators.lj import LennardJones as AseLennardJones
-from ase.optimize import BFGS
+from ase.io import read, write
+from ase.optimize import BFGS, FIRE
+
+try:
+    from ase.filters import UnitCellFilter
+except ImportError:  # before ASE 3.23
+    from ase.constraints import UnitCellFilter
 
 try:
     from ase.calculators.fd import calculate_numerical_forces
@@ -150,6 +158,52 @@ class CalculatorTest(unittest.TestCase):
             LennardJones().set(epsilon=2.0)
         with self.assertRaises(ValueError):
             Calculator(lanescape.Model.named("hard-sphere")).system(Atoms("Ar", cell=[5.0] * 3, pbc=True))
+
+    def test_strange_arguments_are_refused_with_what_is_needed(self):
+        with self.assertRaisesRegex(TypeError, "lanescape.Model is needed, not str"):
+            Calculator("kob-andersen")
+        with self.assertRaisesRegex(TypeError, "LennardJones cannot set rc"):
+            LennardJones(rc=3.0)
+        for name in ("energy", "forces"):
+            with self.assertRaisesRegex(CalculatorSetupError, "no atoms"):
+                LennardJones().get_property(name)
+        self.assertEqual(LennardJones("Ar").model, LennardJones(["Ar"]).model)
+
+    def test_cells_relax_along_the_axes(self):
+        atoms = argon(3, edge=1.6, shake=0.02)
+        atoms.calc = LennardJones(truncation="shifted-force")
+        self.assertGreater(np.abs(atoms.get_stress()[:3]).max(), 2.0)
+        FIRE(UnitCellFilter(atoms, mask=[1, 1, 1, 0, 0, 0]), logfile=None).run(fmax=1e-3, steps=300)
+        self.assertLess(np.abs(atoms.get_stress()[:3]).max(), 0.02)
+        atoms = argon(3, edge=1.6, shake=0.05)
+        atoms.calc = LennardJones(truncation="shifted-force")
+        with self.assertRaisesRegex(CalculatorSetupError, r"mask=\[1, 1, 1, 0, 0, 0\]"):
+            BFGS(UnitCellFilter(atoms), logfile=None).run(fmax=1e-3, steps=200)
+
+    def test_a_cell_orthorhombic_to_rounding_is_allowed(self):
+        atoms = argon()
+        atoms.calc = LennardJones()
+        energy = atoms.get_potential_energy()
+        pairs = lanescape.neighbour_list("ij", atoms, 1.5)
+        atoms.cell[1, 0] = 1e-14
+        self.assertEqual(atoms.get_potential_energy(), energy)
+        np.testing.assert_array_equal(lanescape.neighbour_list("ij", atoms, 1.5), pairs)
+        atoms.cell[1, 0] = 1e-9
+        with self.assertRaises(CalculatorSetupError):
+            atoms.get_potential_energy()
+
+    def test_files_of_ase_keep_results_and_the_model(self):
+        atoms = argon()
+        atoms.calc = LennardJones()
+        energy, forces = atoms.get_potential_energy(), atoms.get_forces()
+        with tempfile.TemporaryDirectory() as folder:
+            for kind in ("extxyz", "traj", "json"):
+                write(f"{folder}/atoms.{kind}", atoms)
+                again = read(f"{folder}/atoms.{kind}")
+                self.assertEqual(again.get_potential_energy(), energy)
+                np.testing.assert_allclose(again.get_forces(), forces, atol=1e-7)
+        kept = json.loads(json.dumps(atoms.calc.todict()))
+        self.assertEqual(lanescape.Model.from_toml(kept["model"]), atoms.calc.model)
 
     def test_calculators_pickle_and_copy(self):
         atoms = argon()

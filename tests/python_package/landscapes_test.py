@@ -109,7 +109,7 @@ class PathTest(unittest.TestCase):
                     {"threads": 0}, {"max_steps": 0}):
             with self.assertRaises(lanescape.InputError, msg=bad):
                 self.path_of_model(**bad)
-        for bad in ({"colour": 1}, {"masses": np.ones(108)}, {"step": "long"}, {"reverse": None}):
+        for bad in ({"colour": 1}, {"step": object()}, {"masses": np.ones(108)}, {"step": "long"}, {"reverse": None}):
             with self.assertRaises(TypeError, msg=bad):
                 self.path_of_model(**bad)
         with self.assertRaises(lanescape.InputError):
@@ -118,8 +118,9 @@ class PathTest(unittest.TestCase):
             lanescape.find_path(self.potential, self.pair.start, self.pair.finish[1:])
         with self.assertRaises(TypeError):
             lanescape.find_path(self.model, self.pair.start, self.pair.finish, species=self.start.species)
-        with self.assertRaises(TypeError):
-            self.path(self.potential, box=self.start.box)
+        for of_a_model in ({"box": self.start.box}, {"threads": 2}, {"precision": "mixed"}, {"instruction_set": "generic"}):
+            with self.assertRaisesRegex(TypeError, "belong to a model"):
+                self.path(self.potential, **of_a_model)
 
 
 class MolecularDynamicsTest(unittest.TestCase):

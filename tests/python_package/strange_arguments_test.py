@@ -48,6 +48,37 @@ class StrangeArgumentsTest(unittest.TestCase):
         self.calls(lanescape.NeighbourList, [1.0], ["full_list", "sorted", "threads", "instruction_set"])
         self.calls(lanescape.make_start, [model, 20, 1.0], ["seed"])
 
+    def test_particles(self):
+        model = lanescape.Model.named("lennard-jones")
+        for bad in (-1, 2.5, "3", 2**70, 2**40, [], np.zeros(3)):
+            with self.assertRaisesRegex(lanescape.InputError, "particles: ", msg=bad):
+                lanescape.Potential(model, None, [5.0] * 3, particles=bad)
+        self.assertEqual(lanescape.Potential(model, None, [5.0] * 3, particles=np.int64(2)).particles, 2)
+
+    def test_functions_for_a_single_use(self):
+        model, species, positions, box = fluid()
+        self.calls(lanescape.evaluate, [model, positions, box, species], ["threads", "precision", "instruction_set", "diameters"])
+        for bad in ((None, positions, box), ("kob-andersen", positions, box)):
+            with self.assertRaisesRegex(TypeError, "model: "):
+                lanescape.evaluate(*bad)
+        with self.assertRaises(TypeError):
+            lanescape.evaluate(lanescape.Model.named("lennard-jones"), positions, box, particles=3)
+        with self.assertRaisesRegex(TypeError, "None is not allowed|incompatible"):
+            lanescape.evaluate(lanescape.Model.named("lennard-jones"), None, box)
+
+    def test_states_of_pickles(self):
+        model, species, positions, box = fluid()
+        potential = lanescape.Potential(model, species, box)
+        spheres = lanescape.Model.named("hard-sphere")
+        start = lanescape.make_start(spheres, 108, 0.3)
+        for whole in (potential, lanescape.HardSpheres([0.5] * 2, [3.0] * 3), lanescape.NeighbourList(1.0),
+                      lanescape.MolecularDynamics(potential, positions, 0.001),
+                      lanescape.EventDrivenDynamics(start.diameters / 2, start.positions, start.box)):
+            kept = whole.__getstate__()
+            for state in ((), (1, 2), kept[:-1], kept + (1,), (None,) * len(kept), (object(),) * len(kept), None, 3):
+                with self.assertRaises((TypeError, ValueError), msg=(whole, state)):
+                    type(whole).__new__(type(whole)).__setstate__(state)
+
     def test_methods(self):
         model, species, positions, box = fluid()
         potential = lanescape.Potential(model, species, box)

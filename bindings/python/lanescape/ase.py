@@ -15,8 +15,9 @@ __all__ = ["AtomsLandscape", "Calculator", "KobAndersen", "LennardJones"]
 class Calculator(AseCalculator):
     """Energies of a model with a pair potential, or with sites in states, whose species are named by chemical symbols.
 
-    model: a Model. threads, precision, instruction_set: as for Potential. Cells are orthorhombic and periodic along all axes; any number of
-    images of a particle is right. Changes of positions and cell keep the neighbour list; other atoms make a new one.
+    model: a Model. threads, precision, instruction_set: as for Potential. Cells are orthorhombic, to 1e-12 of the largest edge, and
+    periodic along all axes; any number of images of a particle is right. ASE's filters that relax a cell keep it so with
+    mask=[1, 1, 1, 0, 0, 0]. Changes of positions and cell keep the neighbour list; other atoms make a new one.
 
     Raises CalculatorSetupError for other cells and for symbols that are no species of the model; ValueError (lanescape.InputError) for
     positions that are not finite.
@@ -28,12 +29,14 @@ class Calculator(AseCalculator):
 
     def __init__(self, model, *, threads=1, precision="double", instruction_set="auto", **keywords):
         self._state = self._shape = self._numbers = None
-        super().__init__(**keywords)
+        if not isinstance(model, _core.Model):
+            raise TypeError(f"model: a lanescape.Model is needed, not {type(model).__name__}")
         self._options = {"threads": threads, "instruction_set": instruction_set}
         if not model.has_states:
             self._options["precision"] = precision
         self._model = model
         self._system = None
+        super().__init__(**keywords)
 
     @property
     def model(self):
@@ -54,8 +57,12 @@ class Calculator(AseCalculator):
     def set(self, **changes):
         """Refuses changes: a model does not change. Make another calculator."""
         if changes:
-            raise TypeError(f"parameters {', '.join(changes)} cannot be set: make another calculator")
+            raise TypeError(f"{type(self).__name__} cannot set {', '.join(changes)}: what its docstring names is given when it is made")
         return {}
+
+    def todict(self, skip_default=True):
+        """What ASE's files and databases keep of a calculator: the model's text, from which Model.from_toml makes it again, and options."""
+        return {"model": self._model.to_toml(), **self._options}
 
     def system(self, atoms):
         """The Potential, or StateSystem, of these atoms in their cell: kept, and the calculator's own."""
@@ -97,6 +104,8 @@ class Calculator(AseCalculator):
 
     def calculate(self, atoms=None, properties=("energy",), system_changes=all_changes):
         atoms = self.atoms if atoms is None else atoms
+        if atoms is None:
+            raise CalculatorSetupError("the calculator has seen no atoms: they are needed")
         state = _state(atoms)
         if state != self._state:
             self.results = {}
@@ -113,7 +122,7 @@ class Calculator(AseCalculator):
 class LennardJones(Calculator):
     """A Lennard-Jones fluid or mixture, 4 epsilon [(sigma/r)^12 - (sigma/r)^6].
 
-    species: chemical symbols, S. epsilon, sigma: a number for S = 1, else symmetric (S, S) matrices, in the units of the atoms.
+    species: chemical symbols, S, or one alone. epsilon, sigma: a number for S = 1, else symmetric (S, S) matrices, in the units of the atoms.
     cutoff: in units of sigma_ab. truncation: shifted, plain, tail, shifted-force or smooth. images: all, or minimum for the nearest image
     of a pair only. threads share an evaluation. What else there is goes to Calculator.
 
@@ -121,7 +130,8 @@ class LennardJones(Calculator):
     """
 
     def __init__(self, species=("Ar",), epsilon=1.0, sigma=1.0, cutoff=2.5, truncation="shifted", images="all", threads=1, **keywords):
-        model = _core.Model.mixture(list(species), epsilon, sigma, cutoff=cutoff, truncation=truncation, images=images, name="lennard-jones")
+        species = [species] if isinstance(species, str) else list(species)
+        model = _core.Model.mixture(species, epsilon, sigma, cutoff=cutoff, truncation=truncation, images=images, name="lennard-jones")
         super().__init__(model, threads=threads, **keywords)
 
 
@@ -170,6 +180,9 @@ class AtomsLandscape:
             return self._atoms.get_potential_energy()
 
 
+_ROUNDING = 1e-12  # of a cell, relative to its largest edge
+
+
 def _state(atoms):
     """All of the atoms that results depend on, as bytes: positions, numbers, cell, pbc."""
     return atoms.positions.tobytes(), atoms.numbers.tobytes(), atoms.cell.array.tobytes(), atoms.pbc.tobytes()
@@ -179,9 +192,11 @@ def _edges(atoms):
     if not atoms.pbc.all():
         raise CalculatorSetupError(f"pbc {atoms.pbc.tolist()} is not allowed: boxes are periodic along all axes")
     cell = atoms.cell.array
-    if numpy.any(cell != numpy.diag(numpy.diag(cell))) or not numpy.all(numpy.diag(cell) > 0.0):
-        raise CalculatorSetupError(f"cell {cell.tolist()} is not allowed: edges along x, y and z above 0 are needed")
-    return numpy.diag(cell).copy()
+    edges = numpy.diag(cell).copy()
+    if not numpy.all(numpy.abs(cell - numpy.diag(edges)) <= _ROUNDING * edges.max()) or not numpy.all(edges > 0.0):
+        raise CalculatorSetupError(f"cell {cell.tolist()} is not allowed: edges along x, y and z above 0 are needed "
+                                   "(filters that relax a cell keep them with mask=[1, 1, 1, 0, 0, 0])")
+    return edges
 
 
 def _species(atoms, model):

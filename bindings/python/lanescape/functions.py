@@ -1,7 +1,9 @@
 """Functions for a single use; objects keep their memory for the next one."""
 
+from collections.abc import Callable
 from typing import Any
 
+import numpy
 from numpy.typing import ArrayLike
 
 from lanescape import _core
@@ -11,78 +13,93 @@ __all__ = ["evaluate", "find_path", "insert", "overlap"]
 
 
 def evaluate(model: _core.Model, positions: ArrayLike, box: ArrayLike, species: "ArrayLike | None" = None, *, forces: bool = True,
-             stress: bool = False, energies: bool = False, **options: Any) -> Evaluation:
+             stress: bool = False, energies: bool = False, threads: int = 1, precision: str = "double", instruction_set: str = "auto",
+             diameters: "ArrayLike | None" = None) -> Evaluation:
     """The energy of one configuration, and what else is asked for: an Evaluation.
 
-    positions: (N, 3), wrapped or not. box: edges, (3,). species: names or indices, (N,); None for a model of one species. options: those
-    of Potential. Many configurations of the same particles are faster with a Potential.
+    positions: (N, 3), wrapped or not. box: edges, (3,). species: names or indices, (N,); None for a model of one species. threads,
+    precision, instruction_set, diameters: as for Potential; a model with states has double precision and no diameters. Many
+    configurations of the same particles are faster with a Potential or a StateSystem.
 
     Raises InputError.
     """
-    kind = _core.StateSystem if model.has_states else _core.Potential
-    if species is None and kind is _core.Potential:
-        options["particles"] = len(positions)
-    return kind(model, species, box, **options).evaluate(positions, forces=forces, stress=stress, energies=energies)
+    if not isinstance(model, _core.Model):
+        raise TypeError(f"model: a lanescape.Model is needed, not {type(model).__name__}")
+    options: dict[str, Any] = {"threads": threads, "instruction_set": instruction_set}
+    if model.has_states:
+        if precision != "double" or diameters is not None:
+            raise TypeError(f"precision and diameters are not allowed: model {model.name} has states")
+        return _core.StateSystem(model, species, box, **options).evaluate(positions, forces=forces, stress=stress, energies=energies)
+    if species is None:
+        options["particles"] = len(positions) if numpy.ndim(positions) else 0
+    potential = _core.Potential(model, species, box, precision=precision, diameters=diameters, **options)
+    return potential.evaluate(positions, forces=forces, stress=stress, energies=energies)
 
 
-def overlap(positions: ArrayLike, radii: ArrayLike, box: ArrayLike, **options: Any) -> Overlaps:
-    """All overlaps of hard spheres: Overlaps. positions: (N, 3). radii: (N,). box: edges, (3,). options: those of HardSpheres.
+def overlap(positions: ArrayLike, radii: ArrayLike, box: ArrayLike, *, instruction_set: str = "auto") -> Overlaps:
+    """All overlaps of hard spheres: Overlaps. positions: (N, 3). radii: (N,). box: edges, (3,). instruction_set: as for HardSpheres.
 
     Raises InputError.
     """
-    spheres = _core.HardSpheres(radii, box, **options)
+    spheres = _core.HardSpheres(radii, box, instruction_set=instruction_set)
     pairs, gaps = spheres.overlaps(positions)
     return Overlaps(pairs, gaps, spheres.smallest_gap(positions))
 
 
 def insert(model: _core.Model, species: "ArrayLike | None", positions: ArrayLike, box: ArrayLike, energy: float, count: int = 1, *,
-           probe: "str | int | None" = None, diameter: float = 1.0, diameters: "ArrayLike | None" = None,
-           **options: Any) -> list[InsertedParticle]:
+           probe: "str | int | None" = None, diameter: float = 1.0, diameters: "ArrayLike | None" = None, tolerance: float = 0.01,
+           measure: str = "relative", method: str = "usher", largest_step: float = 0.0, most_trials: int = 10000,
+           region: "ArrayLike | None" = None, seed: int = 1, threads: int = 1, instruction_set: str = "auto") -> list[InsertedParticle]:
     """Inserts `count` particles at positions where the energy rises by `energy`, one after the other: a list of InsertedParticle.
 
     The arguments are those of Inserter and of its method insert. Raises InputError.
     """
-    inserter = _core.Inserter(model, species, positions, box, probe=probe, diameter=diameter, diameters=diameters)
-    return inserter.insert(energy, count, **options)
+    inserter = _core.Inserter(model, species, positions, box, probe=probe, diameter=diameter, diameters=diameters, instruction_set=instruction_set)
+    return inserter.insert(energy, count, tolerance=tolerance, measure=measure, method=method, largest_step=largest_step,
+                           most_trials=most_trials, region=region, seed=seed, threads=threads)
 
 
 def find_path(landscape: Any, start: ArrayLike, finish: ArrayLike, *, species: "ArrayLike | None" = None, box: "ArrayLike | None" = None,
-              diameters: "ArrayLike | None" = None, masses: "ArrayLike | None" = None, **options: Any) -> Path:
+              diameters: "ArrayLike | None" = None, masses: "ArrayLike | None" = None, method: "str | None" = None, step: "float | None" = None,
+              avoidance_step: "float | None" = None, fictitious: str = "harmonic", landscape_energy: "float | None" = None,
+              reverse: bool = False, max_steps: int = 1_000_000_000, patience: int = 1000, frames: int = 100, threads: int = 1,
+              precision: str = "double", instruction_set: str = "auto",
+              progress: "Callable[[float], bool | None] | None" = None) -> Path:
     """A path from start to finish that never leaves the allowed region: a Path.
 
     landscape: a Model, with `species` and `box` and, where particles have them, `diameters`; or any landscape: a Potential, a
     StateSystem, an object with energy(R) and energy_and_gradient(R), or a function of R, (N, 3), that returns (energy, gradient).
-    start, finish: (N, 3), unwrapped. masses: of a landscape's particles, (N,), None for equal ones.
+    start, finish: (N, 3), unwrapped, in the landscape's unit of length.
+    species: names or indices, (N,); None for a model of one species. box: edges, (3,). diameters: (N,).
+    masses: of a landscape's particles, (N,), None for equal ones; a model has its own.
 
-    Options:
-    method: contour or escape for energies, avoidance or away for hard spheres; the first of the family if it is not given.
-    step: length of a direct step in 3N space; avoidance_step: of each sphere in an avoidance step; in units of length.
+    method: contour or escape for energies, avoidance or away for hard spheres; None: the first of the family.
+    step: length of a direct step in 3N space; avoidance_step: of each sphere in an avoidance step; in units of length. None: the
+    method's own, in the unit of length of the model or of the potential.
     fictitious: force between overlapping spheres in an avoidance step, harmonic, linear or cubic.
-    landscape_energy: E_L; the higher of the two ends if it is not given.
+    landscape_energy: E_L, in units of energy; None: the higher of the two ends.
     reverse: search from the far end too and keep the shorter path.
     max_steps, patience: steps, and steps without progress, after which the search ends.
-    frames: configurations kept between the ends. threads, precision, instruction_set: as for Potential, of a Model only.
-    progress: called now and then with the part done; False ends the search.
+    frames: configurations kept between the ends.
+    threads, precision (double or mixed), instruction_set: as for Potential, of a Model only.
+    progress: called now and then with the part done, from 0 to 1; False ends the search.
 
     Raises InputError for ends that differ, coincide, overlap or lie above E_L. Exceptions of a landscape pass through.
     """
+    options = {"method": method, "step": step, "avoidance_step": avoidance_step, "fictitious": fictitious, "landscape_energy": landscape_energy,
+               "reverse": reverse, "max_steps": max_steps, "patience": patience, "frames": frames, "threads": threads, "precision": precision,
+               "instruction_set": instruction_set, "progress": progress}
+    for name in ("method", "step", "avoidance_step", "landscape_energy", "progress"):
+        if options[name] is None:
+            del options[name]
     if isinstance(landscape, _core.Model):
         if masses is not None:
             raise TypeError("masses: those of a model hold; None is needed")
         if box is None:
             raise TypeError("box: the edges are needed with a model")
-        return _core.path_of_model(landscape, start, finish, species, box, diameters, _checked(options))
+        return _core.path_of_model(landscape, start, finish, species, box, diameters, options)
     if species is not None or box is not None or diameters is not None:
         raise TypeError("species, box and diameters belong to a model: a landscape has its own")
-    return _core.path_on_landscape(landscape, start, finish, masses, _checked(options))
-
-
-_OPTIONS = ("method", "step", "avoidance_step", "fictitious", "landscape_energy", "reverse", "max_steps", "patience", "frames", "threads",
-            "precision", "instruction_set", "progress")
-
-
-def _checked(options):
-    for name in options:
-        if name not in _OPTIONS:
-            raise TypeError(f"find_path() has no option '{name}': it has {', '.join(_OPTIONS)}")
-    return options
+    if (threads, precision, instruction_set) != (1, "double", "auto"):
+        raise TypeError("threads, precision and instruction_set belong to a model: a landscape has its own")
+    return _core.path_on_landscape(landscape, start, finish, masses, options)

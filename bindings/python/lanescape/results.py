@@ -36,7 +36,9 @@ class SitePairs(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class InsertedParticle:
-    found: bool
+    """One search for a position of a given energy."""
+
+    found: bool  # the error is within the tolerance
     position: numpy.ndarray  # (3,), in the box
     energy: float  # by which the fluid's rises
     error: float  # U - U0, or (U - U0) / |U0| where the measure is relative

@@ -38,12 +38,12 @@ AnyNumbers numbers_of(nb::handle given, const char* what) {
 }
 
 template <class Number>
-nb::object copied(std::span<const Number> values, std::vector<std::size_t> shape) {
+Array copied(std::span<const Number> values, std::vector<std::size_t> shape) {
   auto memory = std::make_unique<Number[]>(values.size());
   std::copy(values.begin(), values.end(), memory.get());
   Number* data = memory.release();
   const nb::capsule owner(data, [](void* p) noexcept { delete[] static_cast<Number*>(p); });
-  return nb::cast(nb::ndarray<nb::numpy, Number>(data, shape.size(), shape.data(), owner));
+  return nb::steal<Array>(nb::cast(nb::ndarray<nb::numpy, Number>(data, shape.size(), shape.data(), owner)).release());
 }
 
 }  // namespace
@@ -82,7 +82,7 @@ Room::Room(nb::handle given, std::vector<std::size_t> shape, const char* what) {
     auto memory = std::make_unique<double[]>(size_);
     data_ = memory.release();
     const nb::capsule owner(data_, [](void* p) noexcept { delete[] static_cast<double*>(p); });
-    array_ = nb::cast(nb::ndarray<nb::numpy, double>(data_, shape.size(), shape.data(), owner));
+    array_ = nb::steal<Array>(nb::cast(nb::ndarray<nb::numpy, double>(data_, shape.size(), shape.data(), owner)).release());
     return;
   }
   nb::ndarray<double, nb::c_contig, nb::device::cpu> array;
@@ -93,7 +93,7 @@ Room::Room(nb::handle given, std::vector<std::size_t> shape, const char* what) {
   if (!same)
     refuse(std::string(what) + ": shape " + shape_text(array) + " is not allowed: (" + std::to_string(shape[0]) +
            (shape.size() == 1 ? ",)" : ", 3)") + " is needed");
-  array_ = nb::borrow(given);
+  array_ = nb::borrow<Array>(given);
   data_ = array.data();
 }
 
@@ -146,6 +146,7 @@ std::vector<std::int64_t> integers_of(nb::handle given, const char* what) {
 
 std::vector<std::array<std::int64_t, 2>> pairs_of(nb::handle given, const char* what) {
   const nb::object array = nb::module_::import_("numpy").attr("asarray")(given);
+  if (nb::cast<std::size_t>(array.attr("size")) == 0) return {};
   if (nb::cast<std::size_t>(array.attr("ndim")) != 2 || nb::cast<std::size_t>(array.attr("shape")[1]) != 2)
     refuse(std::string(what) + ": an array of shape (K, 2) is needed");
   const std::vector<std::int64_t> indices = integers_of(array.attr("ravel")(), what);
@@ -167,10 +168,15 @@ Progress progress_of(nb::object given) {
   };
 }
 
-nb::object new_array(std::span<const double> values, std::vector<std::size_t> shape) { return copied(values, std::move(shape)); }
-nb::object new_array(std::span<const std::int64_t> values, std::vector<std::size_t> shape) {
-  return copied(values, std::move(shape));
+void check_state(const nb::tuple& kept, std::size_t members) {
+  if (nb::len(kept) != members)
+    throw nb::type_error(
+        ("this is no state of such an object: it has " + std::to_string(nb::len(kept)) + " members, not " + std::to_string(members))
+            .c_str());
 }
+
+Array new_array(std::span<const double> values, std::vector<std::size_t> shape) { return copied(values, std::move(shape)); }
+Array new_array(std::span<const std::int64_t> values, std::vector<std::size_t> shape) { return copied(values, std::move(shape)); }
 
 nb::object new_result(const char* name, const nb::dict& members) {
   return nb::module_::import_("lanescape.results").attr(name)(**members);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,6 +28,24 @@ struct ArrayLike : nb::handle {
   ArrayLike(nb::handle given, nb::detail::steal_t) : nb::handle(given) {}  // nanobind's; it borrows
   template <class Derived>
   ArrayLike(const nb::detail::api<Derived>& given) : nb::handle(given.derived().ptr()) {}
+};
+
+// Objects of classes that Python defines: names in signatures. One may be null.
+inline bool of_any_class(PyObject*) { return true; }
+class Array : public nb::object {
+  NB_OBJECT_DEFAULT(Array, nb::object, "numpy.ndarray", of_any_class)
+};
+class EvaluationObject : public nb::object {
+  NB_OBJECT_DEFAULT(EvaluationObject, nb::object, "lanescape.results.Evaluation", of_any_class)
+};
+class StartObject : public nb::object {
+  NB_OBJECT_DEFAULT(StartObject, nb::object, "lanescape.results.Start", of_any_class)
+};
+class EndPointsObject : public nb::object {
+  NB_OBJECT_DEFAULT(EndPointsObject, nb::object, "lanescape.results.EndPoints", of_any_class)
+};
+class InsertedParticleObject : public nb::object {
+  NB_OBJECT_DEFAULT(InsertedParticleObject, nb::object, "lanescape.results.InsertedParticle", of_any_class)
 };
 
 // Numbers of a caller. Arrays of float64 in C order are taken as they are; others are converted once. TypeError for what holds no
@@ -51,12 +70,12 @@ class Room {
   static Room list(nb::handle given, std::size_t rows, const char* what);     // (N,)
 
   std::span<double> values() { return {data_, size_}; }
-  const nb::object& array() const { return array_; }
+  const Array& array() const { return array_; }
 
  private:
   Room(nb::handle given, std::vector<std::size_t> shape, const char* what);
 
-  nb::object array_;
+  Array array_;
   double* data_ = nullptr;
   std::size_t size_ = 0;
 };
@@ -78,10 +97,17 @@ std::vector<std::int64_t> integers_of(nb::handle given, const char* what);
 // A caller's function of the part done. It is called, and signals are looked after, from the thread that called the library.
 Progress progress_of(nb::object given);
 
+// TypeError unless the state of a pickle has that many members, which Python's tuples do not check.
+void check_state(const nb::tuple& kept, std::size_t members);
+
 // Copies in arrays of numpy's.
-nb::object new_array(std::span<const double> values, std::vector<std::size_t> shape);
-nb::object new_array(std::span<const std::int64_t> values, std::vector<std::size_t> shape);
+Array new_array(std::span<const double> values, std::vector<std::size_t> shape);
+Array new_array(std::span<const std::int64_t> values, std::vector<std::size_t> shape);
 // An object of the class `name` of lanescape.results.
 nb::object new_result(const char* name, const nb::dict& members);
+template <class Object>
+Object new_result(const nb::dict& members) {
+  return nb::steal<Object>(new_result(std::strrchr(Object::Name.text, '.') + 1, members).release());
+}
 
 }  // namespace lanescape::python

@@ -27,7 +27,7 @@ struct BoundDynamics {
   MolecularDynamics dynamics;
 };
 
-nb::object vectors(BoundDynamics& self, std::vector<double> (MolecularDynamics::*member)() const) {
+Array vectors(BoundDynamics& self, std::vector<double> (MolecularDynamics::*member)() const) {
   const std::vector<double> values = unlocked(self.lock, [&] { return (self.dynamics.*member)(); });
   return new_array(std::span<const double>(values), {values.size() / 3, 3});
 }
@@ -48,12 +48,13 @@ void run(BoundDynamics& self, std::uint64_t steps) {
 nb::tuple state(BoundDynamics& self) {
   const std::string bytes = unlocked(self.lock, [&] { return self.dynamics.state(); });
   const nb::object masses =
-      self.masses.empty() ? nb::none() : new_array(std::span<const double>(self.masses), {self.masses.size()});
+      self.masses.empty() ? nb::object(nb::none()) : new_array(std::span<const double>(self.masses), {self.masses.size()});
   return nb::make_tuple(self.held.given, vectors(self, &MolecularDynamics::positions), self.time_step, masses,
                         nb::bytes(bytes.data(), bytes.size()));
 }
 
 void restore(BoundDynamics* self, const nb::tuple& kept) {
+  check_state(kept, 5);
   make(self, kept[0], kept[1], nb::cast<double>(kept[2]), kept[3]);
   const auto bytes = nb::cast<nb::bytes>(kept[4]);
   unlocked(self->lock, self->held, [&] { self->dynamics.restore(std::string(bytes.c_str(), bytes.size())); });

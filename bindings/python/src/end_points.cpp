@@ -11,9 +11,9 @@
 namespace lanescape::python {
 namespace {
 
-nb::object vectors(const std::vector<double>& values) { return new_array(std::span<const double>(values), {values.size() / 3, 3}); }
+Array vectors(const std::vector<double>& values) { return new_array(std::span<const double>(values), {values.size() / 3, 3}); }
 
-nb::object start(const Model& model, std::size_t particles, double density, std::uint64_t seed) {
+StartObject start(const Model& model, std::size_t particles, double density, std::uint64_t seed) {
   Start made;
   {
     const nb::gil_scoped_release others_may_run;
@@ -25,13 +25,14 @@ nb::object start(const Model& model, std::size_t particles, double density, std:
   members["positions"] = vectors(made.positions);
   members["box"] = new_array(std::span<const double>(made.box), {3});
   members["diameters"] =
-      made.diameters.empty() ? nb::none() : new_array(std::span<const double>(made.diameters), {made.diameters.size()});
-  return new_result("Start", members);
+      made.diameters.empty() ? nb::object(nb::none()) : new_array(std::span<const double>(made.diameters), {made.diameters.size()});
+  return new_result<StartObject>(members);
 }
 
-nb::list end_points(const Model& model, nb::handle start, double temperature, double distance, std::size_t pairs, bool quick,
-                    std::uint64_t equilibration, std::uint64_t between, std::uint64_t seed, int threads,
-                    const std::string& precision, const std::string& instruction_set, nb::object progress) {
+nb::typed<nb::list, EndPointsObject> end_points(const Model& model, nb::handle start, double temperature, double distance,
+                                                std::size_t pairs, bool quick, std::uint64_t equilibration, std::uint64_t between,
+                                                std::uint64_t seed, int threads, const std::string& precision,
+                                                const std::string& instruction_set, nb::object progress) {
   const Numbers positions = Numbers::vectors(start.attr("positions"), "positions of the start");
   const Start begin{species_of(model, start.attr("species"), positions.rows()), positions.copy(), box_of(start.attr("box")),
                     Numbers::list(start.attr("diameters"), "diameters of the start").copy()};
@@ -43,7 +44,7 @@ nb::list end_points(const Model& model, nb::handle start, double temperature, do
     const nb::gil_scoped_release others_may_run;
     made = make_end_points(model, begin, settings);
   }
-  nb::list results;
+  nb::typed<nb::list, EndPointsObject> results;
   for (const EndPoints& pair : made) {
     nb::dict members;
     members["start"] = vectors(pair.start);
@@ -51,7 +52,7 @@ nb::list end_points(const Model& model, nb::handle start, double temperature, do
     members["distance"] = pair.distance;
     members["steps"] = pair.steps;
     members["time"] = pair.time;
-    results.append(new_result("EndPoints", members));
+    results.append(new_result<EndPointsObject>(members));
   }
   return results;
 }

@@ -2,6 +2,8 @@
 
 #include <lanescape/error.hpp>
 
+#include <typeinfo>
+
 #include "module.hpp"
 
 namespace lanescape::python {
@@ -11,6 +13,8 @@ void bind_errors(nanobind::module_&) {
   nanobind::register_exception_translator([](const std::exception_ptr& thrown, void*) {
     try {
       std::rethrow_exception(thrown);
+    } catch (const std::bad_cast&) {
+      PyErr_SetString(PyExc_TypeError, "an argument, or a member of a state, is of another type than is needed");
     } catch (const Error& error) {
       const nanobind::object type =
           nanobind::module_::import_("lanescape.errors").attr(error.code() == ErrorCode::bad_input ? "InputError" : "RunError");

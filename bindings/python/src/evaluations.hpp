@@ -13,6 +13,8 @@
 // What Potential and StateSystem have in common in Python.
 namespace lanescape::python {
 
+using EnergyAndArray = nb::typed<nb::tuple, double, Array>;
+
 template <class Bound>
 double energy(Bound& system, ArrayLike positions) {
   const Numbers given = Numbers::vectors(positions, "positions");
@@ -20,7 +22,7 @@ double energy(Bound& system, ArrayLike positions) {
 }
 
 template <class Bound>
-nb::tuple energy_and_gradient(Bound& system, ArrayLike positions, ArrayLike out) {
+EnergyAndArray energy_and_gradient(Bound& system, ArrayLike positions, ArrayLike out) {
   const Numbers given = Numbers::vectors(positions, "positions");
   Room gradient = Room::vectors(out, given.rows(), "out");
   const double energy = unlocked(system.lock, [&] { return system.object.energy_and_gradient(given.values(), gradient.values()); });
@@ -28,7 +30,7 @@ nb::tuple energy_and_gradient(Bound& system, ArrayLike positions, ArrayLike out)
 }
 
 template <class Bound>
-nb::tuple energy_and_forces(Bound& system, ArrayLike positions, ArrayLike out) {
+EnergyAndArray energy_and_forces(Bound& system, ArrayLike positions, ArrayLike out) {
   const Numbers given = Numbers::vectors(positions, "positions");
   Room forces = Room::vectors(out, given.rows(), "out");
   const Outputs outputs{.forces = Vectors<double>::interleaved(forces.values())};
@@ -41,7 +43,7 @@ inline bool wanted(nb::handle request) { return !request.is_none() && !request.i
 inline nb::object room(nb::handle request) { return request.is(nb::bool_(true)) ? nb::none() : nb::borrow(request); }
 
 template <class Bound>
-nb::object evaluate(Bound& system, ArrayLike positions, nb::handle forces, bool stress, nb::handle energies) {
+EvaluationObject evaluate(Bound& system, ArrayLike positions, nb::handle forces, bool stress, nb::handle energies) {
   const Numbers given = Numbers::vectors(positions, "positions");
   Outputs outputs;
   outputs.stress = stress;
@@ -60,8 +62,8 @@ nb::object evaluate(Bound& system, ArrayLike positions, nb::handle forces, bool 
   const Evaluation e = unlocked(system.lock, [&] { return system.object.evaluate(given.values(), outputs); });
   members["energy"] = e.energy;
   members["virial"] = stress || wanted(forces) ? nb::object(nb::float_(e.virial)) : nb::none();
-  members["stress"] = stress ? new_array(std::span<const double>(e.stress), {6}) : nb::none();
-  return new_result("Evaluation", members);
+  members["stress"] = stress ? nb::object(new_array(std::span<const double>(e.stress), {6})) : nb::object(nb::none());
+  return new_result<EvaluationObject>(members);
 }
 
 // The methods above, for a class.

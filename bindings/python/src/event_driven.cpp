@@ -35,7 +35,7 @@ void make(BoundEvents* self, ArrayLike radii, ArrayLike positions, ArrayLike box
                                          Numbers::vectors(positions, "positions").copy(), box_of(box), instruction_set});
 }
 
-nb::object vectors(BoundEvents& self, std::vector<double> (EventDrivenDynamics::*member)() const) {
+Array vectors(BoundEvents& self, std::vector<double> (EventDrivenDynamics::*member)() const) {
   const std::vector<double> values = unlocked(self.lock, [&] { return (self.object.*member)(); });
   return new_array(std::span<const double>(values), {values.size() / 3, 3});
 }
@@ -52,13 +52,14 @@ void collide(BoundEvents& self, std::uint64_t collisions) {
 nb::tuple state(BoundEvents& self) {
   const std::string bytes = unlocked(self.lock, [&] { return self.object.state(); });
   const auto& [radii, masses, positions, box, instruction_set] = self.parameters;
-  const nb::object weights = masses.empty() ? nb::none() : new_array(std::span<const double>(masses), {masses.size()});
+  const nb::object weights = masses.empty() ? nb::object(nb::none()) : new_array(std::span<const double>(masses), {masses.size()});
   return nb::make_tuple(
       new_array(std::span<const double>(radii), {radii.size()}), new_array(std::span<const double>(positions), {radii.size(), 3}),
       new_array(std::span<const double>(box), {3}), weights, instruction_set, nb::bytes(bytes.data(), bytes.size()));
 }
 
 void restore(BoundEvents* self, const nb::tuple& kept) {
+  check_state(kept, 6);
   make(self, kept[0], kept[1], kept[2], kept[3], nb::cast<std::string>(kept[4]));
   const auto bytes = nb::cast<nb::bytes>(kept[5]);
   self->object.restore(std::string(bytes.c_str(), bytes.size()));

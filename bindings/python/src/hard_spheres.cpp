@@ -36,7 +36,7 @@ bool any_overlap(BoundSpheres& self, ArrayLike positions) {
   return unlocked(self.lock, [&] { return self.object.any_overlap(given.values()); });
 }
 
-nb::tuple overlaps(BoundSpheres& self, ArrayLike positions) {
+nb::typed<nb::tuple, Array, Array> overlaps(BoundSpheres& self, ArrayLike positions) {
   const Numbers given = Numbers::vectors(positions, "positions");
   std::vector<std::int64_t> pairs;
   std::vector<double> gaps;
@@ -82,6 +82,7 @@ void bind_hard_spheres(nb::module_& module) {
           "particles", [](const BoundSpheres& self) { return self.object.particles(); }, "N.")
       .def("__getstate__", &state)
       .def("__setstate__", [](BoundSpheres* self, const nb::tuple& kept) {
+        check_state(kept, 4);
         make(self, kept[0], kept[1], nb::cast<std::string>(kept[2]), nb::cast<double>(kept[3]));
       });
 }

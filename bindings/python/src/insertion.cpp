@@ -44,13 +44,13 @@ InsertionSettings settings_of(double energy, double tolerance, const std::string
 using Search = std::vector<InsertedParticle> (Inserter::*)(const InsertionSettings&, std::size_t);
 
 template <Search search>
-nb::list found_by(BoundInserter& self, double energy, std::size_t count, double tolerance, const std::string& measure,
-                  const std::string& method, double largest_step, std::uint64_t most_trials, ArrayLike region, std::uint64_t seed,
-                  int threads) {
+nb::typed<nb::list, InsertedParticleObject> found_by(BoundInserter& self, double energy, std::size_t count, double tolerance,
+                                                     const std::string& measure, const std::string& method, double largest_step,
+                                                     std::uint64_t most_trials, ArrayLike region, std::uint64_t seed, int threads) {
   const InsertionSettings settings =
       settings_of(energy, tolerance, measure, method, largest_step, most_trials, region, seed, threads);
   const auto found = unlocked(self.lock, [&] { return (self.object.*search)(settings, count); });
-  nb::list results;
+  nb::typed<nb::list, InsertedParticleObject> results;
   for (const InsertedParticle& particle : found) {
     nb::dict members;
     members["found"] = particle.found;
@@ -59,7 +59,7 @@ nb::list found_by(BoundInserter& self, double energy, std::size_t count, double 
     members["error"] = particle.error;
     members["evaluations"] = particle.evaluations;
     members["trials"] = particle.trials;
-    results.append(new_result("InsertedParticle", members));
+    results.append(new_result<InsertedParticleObject>(members));
   }
   return results;
 }
@@ -69,14 +69,14 @@ double energy(BoundInserter& self, ArrayLike position) {
   return unlocked(self.lock, [&] { return self.object.energy(point); });
 }
 
-nb::tuple energy_and_force(BoundInserter& self, ArrayLike position) {
+nb::typed<nb::tuple, double, Array> energy_and_force(BoundInserter& self, ArrayLike position) {
   const auto point = point_of(position, "position");
   std::array<double, 3> force{};
   const double energy = unlocked(self.lock, [&] { return self.object.energy_and_force(point, force); });
   return nb::make_tuple(energy, new_array(std::span<const double>(force), {3}));
 }
 
-nb::object energies(BoundInserter& self, ArrayLike positions, ArrayLike out) {
+Array energies(BoundInserter& self, ArrayLike positions, ArrayLike out) {
   const Numbers given = Numbers::vectors(positions, "positions");
   Room room = Room::list(out, given.rows(), "out");
   unlocked(self.lock, [&] { self.object.energies(given.values(), room.values()); });

@@ -88,7 +88,10 @@ void bind_makers(nb::class_<Model>& model) {
   model.def_static("hard_spheres", &hard_spheres, "species"_a, "diameters"_a, nb::kw_only(), "masses"_a = nb::none(),
                    "fractions"_a = nb::none(), "name"_a = "hard-spheres",
                    "Additive hard spheres. species: names of S species. diameters, masses, fractions: (S,).\n\nRaises InputError.");
-  model.def_static("from_file", &Model::from_file, "path"_a, "A model file (docs/FORMATS.md). Raises InputError.");
+  model.def_static(
+      "from_file",
+      [](nb::handle path) { return Model::from_file(nb::cast<std::string>(nb::module_::import_("os").attr("fsdecode")(path))); },
+      "path"_a, nb::sig("def from_file(path: str | os.PathLike) -> Model"), "A model file (docs/FORMATS.md). Raises InputError.");
   model.def_static(
       "from_toml", [](const std::string& text) { return Model::from_toml(text); }, "text"_a,
       "A model from the text of a model file. Raises InputError.");

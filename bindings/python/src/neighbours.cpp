@@ -3,6 +3,8 @@
 
 #include <lanescape/neighbours.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,12 +27,14 @@ class NeighbourList {
  public:
   explicit NeighbourList(NeighbourFinder::Options options) : options_(std::move(options)) { NeighbourFinder check(options_); }
 
-  nb::tuple compute(ArrayLike points, ArrayLike box, nb::handle periodic, const std::string& quantities, ArrayLike species);
-  nb::tuple compute_around(ArrayLike queries, ArrayLike points, ArrayLike box, nb::handle periodic, const std::string& quantities,
-                           ArrayLike query_species, ArrayLike species);
+  nb::typed<nb::tuple, Array, nb::ellipsis> compute(ArrayLike points, ArrayLike box, nb::handle periodic,
+                                                    const std::string& quantities, ArrayLike species);
+  nb::typed<nb::tuple, Array, nb::ellipsis> compute_around(ArrayLike queries, ArrayLike points, ArrayLike box, nb::handle periodic,
+                                                           const std::string& quantities, ArrayLike query_species,
+                                                           ArrayLike species);
   // Pairs that are never listed.
   void exclude(std::vector<Excluded> pairs);
-  nb::object exclusions() const;
+  Array exclusions() const;
   nb::tuple state() const;
 
  private:
@@ -50,8 +54,11 @@ std::array<double, 3> cell_of(nb::handle given) {
   if (nb::cast<std::size_t>(array.attr("ndim")) != 2) return box_of(array);
   const Numbers rows = Numbers::vectors(array, "box");
   if (rows.rows() != 3) refuse("box: shape (3,) or (3, 3) is needed");
+  constexpr double rounding = 1e-12;
+  const double largest = std::max({rows.values()[0], rows.values()[4], rows.values()[8]});
   for (std::size_t k = 0; k < 9; ++k)
-    if (k % 4 != 0 && rows.values()[k] != 0.0) refuse("box: the cell is not orthorhombic: edges along x, y and z are needed");
+    if (k % 4 != 0 && !(std::abs(rows.values()[k]) <= rounding * largest))
+      refuse("box: the cell is not orthorhombic: edges along x, y and z are needed");
   return {rows.values()[0], rows.values()[4], rows.values()[8]};
 }
 
@@ -85,8 +92,8 @@ nb::object view(const std::shared_ptr<NeighbourFinder>& finder, std::span<const 
   return nb::cast(nb::ndarray<nb::numpy, Number>(const_cast<Number*>(numbers.data()), columns == 1 ? 1 : 2, shape, owner));
 }
 
-nb::tuple arrays_of(const std::shared_ptr<NeighbourFinder>& finder, const NeighbourFinder::Pairs& pairs,
-                    const std::string& quantities) {
+nb::typed<nb::tuple, Array, nb::ellipsis> arrays_of(const std::shared_ptr<NeighbourFinder>& finder,
+                                                    const NeighbourFinder::Pairs& pairs, const std::string& quantities) {
   nb::list arrays;
   for (const char c : quantities) {
     if (c == 'i') arrays.append(view(finder, pairs.i, 1));
@@ -125,7 +132,7 @@ void NeighbourList::exclude(std::vector<Excluded> pairs) {
   });
 }
 
-nb::object NeighbourList::exclusions() const {
+Array NeighbourList::exclusions() const {
   std::vector<std::int64_t> indices;
   for (const auto& [i, j] : exclusions_) indices.insert(indices.end(), {i, j});
   return new_array(std::span<const std::int64_t>(indices), {exclusions_.size(), 2});
@@ -137,8 +144,8 @@ std::vector<Excluded> excluded_of(ArrayLike given) {
   return pairs;
 }
 
-nb::tuple NeighbourList::compute(ArrayLike points, ArrayLike box, nb::handle periodic, const std::string& quantities,
-                                 ArrayLike species) {
+nb::typed<nb::tuple, Array, nb::ellipsis> NeighbourList::compute(ArrayLike points, ArrayLike box, nb::handle periodic,
+                                                                 const std::string& quantities, ArrayLike species) {
   const Numbers given = Numbers::vectors(points, "points");
   const auto edges = cell_of(box);
   const std::vector<std::int32_t> kinds = kinds_of(species);
@@ -154,8 +161,9 @@ nb::tuple NeighbourList::compute(ArrayLike points, ArrayLike box, nb::handle per
   return arrays_of(finder, pairs, quantities);
 }
 
-nb::tuple NeighbourList::compute_around(ArrayLike queries, ArrayLike points, ArrayLike box, nb::handle periodic,
-                                        const std::string& quantities, ArrayLike query_species, ArrayLike species) {
+nb::typed<nb::tuple, Array, nb::ellipsis> NeighbourList::compute_around(ArrayLike queries, ArrayLike points, ArrayLike box,
+                                                                        nb::handle periodic, const std::string& quantities,
+                                                                        ArrayLike query_species, ArrayLike species) {
   const Numbers around = Numbers::vectors(queries, "queries"), given = Numbers::vectors(points, "points");
   const auto edges = cell_of(box);
   const std::vector<std::int32_t> query_kinds = kinds_of(query_species), kinds = kinds_of(species);
@@ -212,7 +220,8 @@ void bind_neighbours(nb::module_& module) {
            "A tuple of arrays, one for each letter of quantities, P pairs: i, j (P,) int64; S (P, 3) int32, whole boxes; D (P, 3) "
            "and\n"
            "d (P,), r_j - r_i + S . box and its length; s (N + 1,) int64, the first pair of each i and P (sorted lists only).\n"
-           "points: (N, 3), wrapped or not. box: edges, (3,), or the matrix of an orthorhombic cell. periodic: for all axes or "
+           "points: (N, 3), wrapped or not. box: edges, (3,), or the matrix of a cell, orthorhombic to 1e-12 of its largest edge. "
+           "periodic: for all axes or "
            "each.\n"
            "species: (N,), from 0, where cutoff is a matrix.\n\nRaises InputError.")
       .def("compute_around", &NeighbourList::compute_around, "queries"_a, "points"_a, "box"_a, "periodic"_a = true,
@@ -224,6 +233,7 @@ void bind_neighbours(nb::module_& module) {
           "Pairs (i, j) that are never listed in either direction, such as bonded ones, (K, 2), int64.")
       .def("__getstate__", &NeighbourList::state)
       .def("__setstate__", [](NeighbourList* self, const nb::tuple& kept) {
+        check_state(kept, 6);
         new (self) NeighbourList(options_of(kept[0], nb::cast<bool>(kept[1]), nb::cast<bool>(kept[2]), nb::cast<int>(kept[3]),
                                             nb::cast<std::string>(kept[4])));
         self->exclude(excluded_of(kept[5]));

@@ -41,7 +41,7 @@ double energy_change(BoundMoves& self, std::size_t particle, ArrayLike to) {
   return unlocked(self.lock, [&] { return self.object.energy_change(particle, there); });
 }
 
-nb::object positions_of(BoundMoves& self) {
+Array positions_of(BoundMoves& self) {
   const std::vector<double> numbers = unlocked(self.lock, [&] {
     const auto now = self.object.positions();
     return std::vector<double>(now.begin(), now.end());
@@ -52,9 +52,9 @@ nb::object positions_of(BoundMoves& self) {
 nb::tuple state(BoundMoves& self) {
   const std::vector<std::int64_t> species(self.species.begin(), self.species.end());
   const auto& diameters = self.options.diameters;
+  nb::object sizes = diameters.empty() ? nb::object(nb::none()) : new_array(std::span<const double>(diameters), {diameters.size()});
   return nb::make_tuple(self.model, new_array(std::span<const std::int64_t>(species), {species.size()}), positions_of(self),
-                        new_array(std::span<const double>(self.box), {3}), self.options.instruction_set,
-                        diameters.empty() ? nb::none() : new_array(std::span<const double>(diameters), {diameters.size()}));
+                        new_array(std::span<const double>(self.box), {3}), self.options.instruction_set, std::move(sizes));
 }
 
 }  // namespace
@@ -82,6 +82,7 @@ void bind_particle_moves(nb::module_& module) {
           "particles", [](const BoundMoves& self) { return self.species.size(); }, "N.")
       .def("__getstate__", &state)
       .def("__setstate__", [](BoundMoves* self, const nb::tuple& kept) {
+        check_state(kept, 6);
         make(self, nb::cast<Model>(kept[0]), kept[1], kept[2], kept[3], nb::cast<std::string>(kept[4]), kept[5]);
       });
 }

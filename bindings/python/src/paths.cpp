@@ -14,7 +14,7 @@
 namespace lanescape::python {
 namespace {
 
-nb::object frames_of(const Path& path) {
+Array frames_of(const Path& path) {
   std::vector<double> numbers;
   for (const auto& frame : path.frames) numbers.insert(numbers.end(), frame.begin(), frame.end());
   const std::size_t frames = path.frames.size();

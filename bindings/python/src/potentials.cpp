@@ -14,11 +14,17 @@
 namespace lanescape::python {
 namespace {
 
+constexpr std::size_t most_particles = std::size_t{1} << 31;
+
 std::size_t count_of(ArrayLike species, nb::handle particles) {
   if (!species.is_none()) return 0;
   if (particles.is_none())
     throw Error(ErrorCode::bad_input, "species: one for each particle is needed, or `particles`, their number");
-  return nb::cast<std::size_t>(particles);
+  std::size_t count = 0;
+  if (!nb::try_cast(particles, count) || count > most_particles)
+    throw Error(ErrorCode::bad_input, "particles: " + text(nb::repr(particles)) + " is not allowed: a whole number from 0 to " +
+                                          std::to_string(most_particles) + " is needed");
+  return count;
 }
 
 void make(BoundPotential* self, const Model& model, ArrayLike species, ArrayLike box, nb::handle particles, int threads,
@@ -29,12 +35,12 @@ void make(BoundPotential* self, const Model& model, ArrayLike species, ArrayLike
       Potential::Options{threads_of(threads), precision, instruction_set, Numbers::list(diameters, "diameters").copy()});
 }
 
-nb::object species_array(const Potential& potential) {
+Array species_array(const Potential& potential) {
   const std::vector<std::int64_t> species(potential.species().begin(), potential.species().end());
   return new_array(std::span<const std::int64_t>(species), {species.size()});
 }
 
-nb::object box_array(const Potential& potential) { return new_array(std::span<const double>(potential.box()), {3}); }
+Array box_array(const Potential& potential) { return new_array(std::span<const double>(potential.box()), {3}); }
 
 void set_exclusions(BoundPotential& self, ArrayLike given) {
   std::vector<std::array<std::size_t, 2>> pairs;
@@ -46,7 +52,7 @@ void set_exclusions(BoundPotential& self, ArrayLike given) {
   self.exclusions = std::move(pairs);
 }
 
-nb::object exclusions_of(const BoundPotential& self) {
+Array exclusions_of(const BoundPotential& self) {
   std::vector<std::int64_t> indices;
   for (const auto& [i, j] : self.exclusions)
     indices.insert(indices.end(), {static_cast<std::int64_t>(i), static_cast<std::int64_t>(j)});
@@ -56,12 +62,13 @@ nb::object exclusions_of(const BoundPotential& self) {
 // What a pickle holds: the parameters.
 nb::tuple parameters(const BoundPotential& self) {
   const auto& [threads, precision, instruction_set, diameters] = self.object.options();
-  nb::object sizes = diameters.empty() ? nb::none() : new_array(std::span<const double>(diameters), {diameters.size()});
+  nb::object sizes = diameters.empty() ? nb::object(nb::none()) : new_array(std::span<const double>(diameters), {diameters.size()});
   return nb::make_tuple(self.object.model(), species_array(self.object), box_array(self.object), nb::none(), threads, precision,
                         instruction_set, sizes, exclusions_of(self));
 }
 
 void restore(BoundPotential* self, const nb::tuple& state) {
+  check_state(state, 9);
   make(self, nb::cast<Model>(state[0]), state[1], state[2], state[3], nb::cast<int>(state[4]), nb::cast<std::string>(state[5]),
        nb::cast<std::string>(state[6]), state[7]);
   if (nb::len(nb::object(state[8])) != 0) set_exclusions(*self, state[8]);
@@ -84,7 +91,8 @@ void bind_potentials(nb::module_& module) {
   type.def(
       "__init__", &make, "model"_a, "species"_a.none(), "box"_a, nb::kw_only(), "particles"_a = nb::none(), "threads"_a = 1,
       "precision"_a = "double", "instruction_set"_a = "auto", "diameters"_a = nb::none(),
-      "species: names or indices, (N,); None for a model of one species, with `particles` of it. box: edges, (3,). threads share "
+      "model: one with a pair potential. species: names or indices, (N,); None for a model of one species, with `particles` of it. "
+      "box: edges, (3,). threads share "
       "an\n"
       "evaluation and change no result. precision: double or mixed (pairs in single precision). instruction_set: auto or one of\n"
       "`lanescape.instruction_sets()`. diameters: (N,), for models whose particles have them.\n\nRaises InputError.");

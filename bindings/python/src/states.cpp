@@ -19,12 +19,12 @@ void make(BoundStates* self, const Model& model, ArrayLike species, ArrayLike bo
                                          nb::borrow(order_parameter), nb::borrow(response)});
 }
 
-nb::object order_parameters(BoundStates& self) {
+Array order_parameters(BoundStates& self) {
   const std::vector<double> values = unlocked(self.lock, [&] { return self.object.order_parameters(); });
   return new_array(std::span<const double>(values), {values.size()});
 }
 
-nb::object probabilities(BoundStates& self) {
+Array probabilities(BoundStates& self) {
   const std::vector<double> values = unlocked(self.lock, [&] { return self.object.probabilities(); });
   const std::size_t states = self.object.states();
   return new_array(std::span<const double>(values), {values.size() / states, states});
@@ -94,6 +94,7 @@ void bind_states(nb::module_& module) {
       .def("probabilities", &probabilities, "Of the last evaluation, (N, states).")
       .def("__getstate__", &state)
       .def("__setstate__", [](BoundStates* self, const nb::tuple& kept) {
+        check_state(kept, 7);
         make(self, nb::cast<Model>(kept[0]), kept[1], kept[2], nb::cast<int>(kept[3]), nb::cast<std::string>(kept[4]), kept[5],
              kept[6]);
       });
