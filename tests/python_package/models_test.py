@@ -2,7 +2,9 @@
 
 import copy
 import pickle
+import tempfile
 import unittest
+from pathlib import Path
 
 import numpy as np
 from support import fluid, potential
@@ -101,6 +103,19 @@ class EnergyTest(unittest.TestCase):
         for bad, error in (([[0, 2]], ValueError), ([[0, -1]], ValueError), ([0, 1], ValueError), ([[0.0, 1.0]], TypeError), (None, TypeError)):
             with self.assertRaises(error, msg=bad):
                 pair.exclusions = bad
+        pair.exclusions = []
+        self.assertLess(pair.energy(positions), -0.9)
+
+    def test_a_model_file_may_be_a_path(self):
+        model = lanescape.Model.named("wahnstrom")
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "model.toml")
+            file.write_text(model.to_toml())
+            for same in (file, str(file), bytes(file)):
+                self.assertEqual(lanescape.Model.from_file(same), model)
+        for bad in (None, 3, ["a"]):
+            with self.assertRaises(TypeError):
+                lanescape.Model.from_file(bad)
 
     def test_sites_in_states_have_energies_and_probabilities(self):
         model, species, positions, box = fluid("ucg", density=0.5)

@@ -75,6 +75,7 @@ def check_contents(built):
     assert any(re.fullmatch(r"lanescape/_core[.\w-]*\.so", name) for name in names), names
     for name in ("__init__.py", "_core.pyi", "ase.py", "py.typed"):
         assert f"lanescape/{name}" in names, f"{name} is missing in {names}"
+    assert "-> object" not in zipfile.ZipFile(built).read("lanescape/_core.pyi").decode(), "a result has no type in the stub"
     strangers = [name for name in names if not re.match(r"lanescape(-[\d.]+\.dist-info)?/", name)]
     assert not strangers, strangers
 

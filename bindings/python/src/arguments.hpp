@@ -44,6 +44,9 @@ class StartObject : public nb::object {
 class EndPointsObject : public nb::object {
   NB_OBJECT_DEFAULT(EndPointsObject, nb::object, "lanescape.results.EndPoints", of_any_class)
 };
+class PathObject : public nb::object {
+  NB_OBJECT_DEFAULT(PathObject, nb::object, "lanescape.results.Path", of_any_class)
+};
 class InsertedParticleObject : public nb::object {
   NB_OBJECT_DEFAULT(InsertedParticleObject, nb::object, "lanescape.results.InsertedParticle", of_any_class)
 };

@@ -21,7 +21,7 @@ Array frames_of(const Path& path) {
   return new_array(std::span<const double>(numbers), {frames, frames == 0 ? 0 : numbers.size() / frames / 3, 3});
 }
 
-nb::object to_python(const Path& path) {
+PathObject to_python(const Path& path) {
   nb::dict members;
   members["outcome"] = path.outcome;
   members["reason"] = path.reason;
@@ -37,7 +37,7 @@ nb::object to_python(const Path& path) {
   members["reversed"] = path.reversed;
   members["seconds"] = path.seconds;
   members["frames"] = frames_of(path);
-  return new_result("Path", members);
+  return new_result<PathObject>(members);
 }
 
 PathSettings settings_of(const nb::dict& given) {
@@ -63,7 +63,7 @@ PathSettings settings_of(const nb::dict& given) {
   return settings;
 }
 
-nb::object on_model(const Model& model, ArrayLike start, ArrayLike finish, ArrayLike species, ArrayLike box, ArrayLike diameters,
+PathObject on_model(const Model& model, ArrayLike start, ArrayLike finish, ArrayLike species, ArrayLike box, ArrayLike diameters,
                     const nb::dict& options) {
   const Numbers from = Numbers::vectors(start, "start"), to = Numbers::vectors(finish, "finish");
   const std::vector<int> indices = species_of(model, species, from.rows());
@@ -78,7 +78,7 @@ nb::object on_model(const Model& model, ArrayLike start, ArrayLike finish, Array
   return to_python(path);
 }
 
-nb::object on_landscape(nb::handle landscape, ArrayLike start, ArrayLike finish, ArrayLike masses, const nb::dict& options) {
+PathObject on_landscape(nb::handle landscape, ArrayLike start, ArrayLike finish, ArrayLike masses, const nb::dict& options) {
   const Numbers from = Numbers::vectors(start, "start"), to = Numbers::vectors(finish, "finish");
   const Numbers weights = Numbers::list(masses, "masses");
   const HeldLandscape held(landscape, from.rows());
