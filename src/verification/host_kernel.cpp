@@ -175,17 +175,24 @@ void call(lanescape_kernel* kernel, const PairCase& one, Exchange& exchange, std
   _exit(0);
 }
 
-// How a child ended: the words of a message. Throws Error(goal_not_reached) where somebody has interrupted it.
-std::string wait_for(pid_t child) {
+// How a process with cases ended, in the words of a message.
+struct Ending {
+  std::string words;
+  bool out_of_time = false;
+};
+
+// How a child ended. Throws Error(goal_not_reached) where somebody has interrupted it.
+Ending wait_for(pid_t child) {
   int status = 0;
   while (waitpid(child, &status, 0) < 0)
     if (errno != EINTR) throw std::system_error(errno, std::generic_category(), "waitpid");
-  if (!WIFSIGNALED(status)) return fmt::format("ended the process with exit status {}", WEXITSTATUS(status));
+  if (!WIFSIGNALED(status)) return {fmt::format("ended the process with exit status {}", WEXITSTATUS(status))};
   const int number = WTERMSIG(status);
   if (number == SIGINT || number == SIGTERM) throw Error(ErrorCode::goal_not_reached, "interrupted: no result is printed");
-  if (number == SIGALRM) return fmt::format("did not return within {} s", seconds_per_case);
-  return fmt::format("crashed with {} ({})",
-                     sigabbrev_np(number) == nullptr ? "a signal" : fmt::format("SIG{}", sigabbrev_np(number)), strsignal(number));
+  if (number == SIGALRM) return {fmt::format("did not return within {} s", seconds_per_case), true};
+  return {fmt::format("crashed with {} ({})",
+                      sigabbrev_np(number) == nullptr ? "a signal" : fmt::format("SIG{}", sigabbrev_np(number)),
+                      strsignal(number))};
 }
 
 HostResult result_of(const Record& record, const double* forces, std::size_t components) {
@@ -204,16 +211,17 @@ HostResult result_of(const Record& record, const double* forces, std::size_t com
 // Runs the cases from `first` on in a new process. The number of the first case that it has not finished; how it ended is then its
 // fault.
 std::size_t run_from(std::size_t first, const std::filesystem::path& library, const std::string& symbol,
-                     const std::vector<PairCase>& cases, Exchange& exchange, std::string& fault) {
+                     const std::vector<PairCase>& cases, Exchange& exchange, Ending& ending) {
   exchange.loaded[0] = false;
   std::fflush(nullptr);
   const pid_t child = fork();
   if (child < 0) throw std::system_error(errno, std::generic_category(), "fork");
   if (child == 0) run_child(library, symbol, cases, exchange, first);
-  fault = wait_for(child);
+  ending = wait_for(child);
   if (!exchange.loaded[0]) {
     const std::string why = exchange.message.data();
-    throw_bad_input(fmt::format("{}: {}", library.string(), why.empty() ? "the library " + fault + " as it was loaded" : why));
+    throw_bad_input(
+        fmt::format("{}: {}", library.string(), why.empty() ? "the library " + ending.words + " as it was loaded" : why));
   }
   std::size_t k = first;
   while (k < cases.size() && exchange.records[k].returned) ++k;
@@ -232,16 +240,23 @@ std::vector<HostResult> run_host_kernel(const std::filesystem::path& library, co
   for (std::size_t k = 0; k < cases.size(); offset += cases[k++].configuration.positions.size() + guard)
     exchange.records[k].forces = offset;
 
+  constexpr int most_waits = 3;  // a kernel that never returns would take hours
+  int waits = 0;
   std::vector<HostResult> results(cases.size());
   for (std::size_t first = 0; first < cases.size();) {
-    std::string fault;
+    Ending ending;
     // A path with a slash: dlopen would search the system's folders for a bare name.
-    const std::size_t last = run_from(first, std::filesystem::absolute(library), symbol, cases, exchange, fault);
+    const std::size_t last = run_from(first, std::filesystem::absolute(library), symbol, cases, exchange, ending);
     for (std::size_t k = first; k < last; ++k)
       results[k] =
           result_of(exchange.records[k], &exchange.forces[exchange.records[k].forces], cases[k].configuration.positions.size());
-    if (last < cases.size()) results[last] = {HostResult::Kind::broken, fault};
+    if (last < cases.size()) results[last] = {HostResult::Kind::broken, ending.words};
     first = last + 1;
+    if (last < cases.size() && ending.out_of_time && ++waits == most_waits) {
+      std::fill(results.begin() + static_cast<std::ptrdiff_t>(first), results.end(),
+                HostResult{HostResult::Kind::broken, fmt::format("was not called: {} cases before it did not return", waits)});
+      break;
+    }
   }
   return results;
 }

@@ -97,6 +97,12 @@ class WrongKernels(HostTest):
         result = self.wrong("ends_the_process", says=("'slab kob-andersen all tail'", "exit status 0"))
         self.assertEqual(result["failed"], 1)
 
+    def test_a_kernel_that_never_returns_is_given_up_after_three_cases(self):
+        start = time.monotonic()
+        messages = [f["message"] for f in self.wrong("never_returns", says=("did not return within",))["failures"]]
+        self.assertLess(time.monotonic() - start, 20)
+        self.assertEqual([sum(words in m for m in messages) for words in ("did not return within", "was not called")], [3, len(messages) - 3])
+
     def test_nan_is_a_failure_that_names_particle_and_component(self):
         result = self.wrong("gives_nan", says=("force on particle 5 (from 0), y", "got nan"))
         forces = result["quantities"][1]
