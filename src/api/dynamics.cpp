@@ -12,7 +12,7 @@
 #include "core/option_checks.hpp"
 #include "dynamics/event_driven.hpp"
 #include "dynamics/velocity_verlet.hpp"
-#include "interaction/sphere/check_overlap.hpp"
+#include "interaction/sphere/rounding_overlaps.hpp"
 
 namespace lanescape {
 LANESCAPE_ABI_BEGIN
@@ -23,6 +23,15 @@ struct MolecularDynamics::Implementation {
         layout(particles.species, particles.mixture.species.size()),
         landscape(host, layout, choose_isa("auto")),
         verlet(landscape, particles.mixture, layout, layout.to_slots(positions), time_step) {}
+
+  // The sizes of arrays, which are padded, do not tell the number of particles.
+  void exchange(Archive& archive) {
+    std::uint64_t count = layout.size();
+    archive.field("particles", count);
+    if (count != layout.size())
+      throw_bad_input(fmt::format("state: it is of {} particles: one of {} is needed", count, layout.size()));
+    verlet.exchange(archive);
+  }
 
   // The dynamics refers to what stands before it.
   MassMixture particles;
@@ -75,13 +84,13 @@ std::vector<double> MolecularDynamics::velocities() const {
 
 std::string MolecularDynamics::state() const {
   ByteWriter archive;
-  implementation_->verlet.exchange(archive);
+  implementation_->exchange(archive);
   return archive.bytes();
 }
 
 void MolecularDynamics::restore(const std::string& state) {
   ByteReader archive(state);
-  implementation_->verlet.exchange(archive);
+  implementation_->exchange(archive);
 }
 
 struct EventDrivenDynamics::Implementation {
@@ -97,7 +106,8 @@ EventDrivenDynamics::EventDrivenDynamics(std::span<const double> radii, std::spa
   spheres.positions.assign(positions.begin(), positions.end());
   const MassMixture particles(masses, radii.size());
   const kernels::KernelTable& table = kernel_table(choose_isa(instruction_set));
-  check_no_overlap(spheres, table);
+  constexpr double rounding = 1e-12;  // [s_ij]
+  rounding_overlap_factor(spheres, rounding);
   implementation_ =
       std::make_unique<Implementation>(Implementation{EventDriven(spheres, particles.mixture.masses_of(particles.species), table)});
 }
@@ -117,8 +127,9 @@ void EventDrivenDynamics::set_velocities(std::span<const double> velocities) {
 }
 
 void EventDrivenDynamics::collide(std::uint64_t collisions) {
-  if (collisions != 0 && !(implementation_->dynamics.kinetic_energy() > 0.0))
-    throw_bad_input("all spheres are at rest and never collide: give them velocities first");
+  const double kinetic = implementation_->dynamics.kinetic_energy();
+  if (collisions != 0 && !(kinetic > 0.0)) throw_bad_input("all spheres are at rest and never collide: give them velocities first");
+  if (!std::isfinite(kinetic)) throw_bad_input("velocities are too large: their kinetic energy must be finite");
   for (std::uint64_t k = 0; k < collisions; ++k) implementation_->dynamics.collide();
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -38,9 +39,21 @@ double HostLandscape::energy(const AlignedArray& position) { return host_->energ
 double HostLandscape::energy_and_gradient(const AlignedArray& position, AlignedArray& gradient) {
   const double energy = host_->energy_and_gradient(to_host(position), gradient_);
   const std::size_t slots = layout_->slots();
+  double nothing = 0.0;  // g - g is 0, or not a number
   for (std::size_t i = 0; i < layout_->size(); ++i)
-    for (std::size_t axis = 0; axis < 3; ++axis) gradient[axis * slots + layout_->slot_of(i)] = gradient_[3 * i + axis];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double g = gradient_[3 * i + axis];
+      gradient[axis * slots + layout_->slot_of(i)] = g;
+      nothing += g - g;
+    }
+  if (nothing != 0.0) refuse_gradient();
   return energy;
+}
+
+void HostLandscape::refuse_gradient() const {
+  const auto bad = std::find_if(gradient_.begin(), gradient_.end(), [](double g) { return !std::isfinite(g); });
+  throw_bad_input(fmt::format("landscape: gradient component {} of particle {} (from 0) is not allowed: it must be finite", *bad,
+                              (bad - gradient_.begin()) / 3));
 }
 
 }  // namespace lanescape

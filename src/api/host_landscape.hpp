@@ -33,10 +33,12 @@ class HostLandscape final : public SoftLandscape {
   std::size_t particles() const override { return layout_->size(); }
   const VectorAlgebra& algebra() const override { return algebra_; }
   double energy(const AlignedArray& position) override;
+  // Throws Error(bad_input) where the host's gradient is not finite.
   double energy_and_gradient(const AlignedArray& position, AlignedArray& gradient) override;
 
  private:
   std::span<const double> to_host(const AlignedArray& position);
+  [[noreturn]] void refuse_gradient() const;
 
   Landscape* host_;
   const ParticleLayout* layout_;

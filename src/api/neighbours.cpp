@@ -41,8 +41,8 @@ struct NeighbourFinder::Implementation {
 };
 
 NeighbourFinder::NeighbourFinder(const Options& options)
-    : implementation_(
-          std::make_unique<Implementation>(Implementation{PairFinder(internal(options), kernel_table(choose_isa(options.instruction_set)))})) {}
+    : implementation_(std::make_unique<Implementation>(
+          Implementation{PairFinder(internal(options), kernel_table(choose_isa(options.instruction_set)))})) {}
 NeighbourFinder::~NeighbourFinder() = default;
 NeighbourFinder::NeighbourFinder(NeighbourFinder&&) noexcept = default;
 NeighbourFinder& NeighbourFinder::operator=(NeighbourFinder&&) noexcept = default;

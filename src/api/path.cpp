@@ -51,6 +51,10 @@ PathRunOptions options_of(const PathSettings& settings, const AnyModel& model) {
   return options;
 }
 
+void check_particles(std::size_t particles) {
+  if (particles == 0) throw_bad_input("a path of no particles is not possible: at least one is needed");
+}
+
 PathResult one_way(const SearchSetup& setup, const Progress& progress) {
   const FloatEnvironment environment;
   const double share = setup.options.reverse ? 0.5 : 1.0;
@@ -107,6 +111,7 @@ Path search(const SearchSetup& setup, const Progress& progress) {
 Path find_path(const Model& model, std::span<const int> species, const std::array<double, 3>& box, std::span<const double> start,
                std::span<const double> finish, const PathSettings& settings, std::span<const double> diameters) {
   const AnyModel& any = detail::Access::of(model);
+  check_particles(species.size());
   check_positions(start.size(), species.size());
   check_positions(finish.size(), species.size());
   ConfigurationPair pair{{Box{box}, {species.begin(), species.end()}, {start.begin(), start.end()}}, {}};
@@ -127,6 +132,7 @@ Path find_path(Landscape& landscape, std::span<const double> start, std::span<co
       potential != nullptr && masses.empty() && is_its_model(*potential))
     return find_path(potential->model(), potential->species(), potential->box(), start, finish,
                      with_options_of(*potential, settings), potential->options().diameters);
+  check_particles(landscape.particles());
   check_positions(start.size(), landscape.particles());
   check_positions(finish.size(), landscape.particles());
   check_finite_particles(start);

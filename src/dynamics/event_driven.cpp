@@ -14,6 +14,8 @@ namespace {
 
 // Least box edge, in largest diameters: in a shorter box a sphere could collide with two images of another.
 constexpr double least_box = 2.05;
+// Spheres that never meet leave their shells for ever.
+constexpr std::uint64_t most_events_between_collisions = 10'000'000;
 
 // For the functions of dynamics/maxwell.hpp.
 template <class Spheres>
@@ -201,8 +203,11 @@ bool EventDriven::next_event() {
 
 void EventDriven::collide() {
   const FloatEnvironment environment;
-  while (!next_event()) {
-  }
+  for (std::uint64_t events = 0; !next_event(); ++events)
+    if (events == most_events_between_collisions)
+      throw Error(ErrorCode::goal_not_reached,
+                  fmt::format("no spheres collide within {} events, until time {}: they may fly side by side",
+                              most_events_between_collisions, time()));
 }
 
 void EventDriven::advance_to(double time) {

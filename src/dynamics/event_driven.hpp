@@ -39,7 +39,8 @@ class EventDriven {
   // Removes the total momentum and scales to sum m v^2 / 2 = (3/2) N T with T = 1, the convention of [G].
   void rescale();
 
-  // Advances to the next collision. At least one particle must be moving.
+  // Advances to the next collision. At least one particle must be moving. Throws Error(goal_not_reached) after ten million events
+  // without one.
   void collide();
   // Advances to `time`, counted from the start, through all collisions until then.
   void advance_to(double time);

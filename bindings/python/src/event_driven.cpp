@@ -99,7 +99,8 @@ void bind_event_driven(nb::module_& module) {
                                "trajectory goes on with other bits.");
   type.def("__init__", &make, "radii"_a, "positions"_a, "box"_a, "masses"_a = nb::none(), nb::kw_only(),
            "instruction_set"_a = "auto",
-           "radii, masses: (N,), masses None for 1. positions: (N, 3), without overlaps. box: edges, (3,), at least 2.05 of the "
+           "radii, masses: (N,), masses None for 1. positions: (N, 3), without overlaps beyond rounding. box: edges, (3,), at "
+           "least 2.05 of the "
            "largest\n"
            "diameter.\n\nRaises InputError.")
       .def(

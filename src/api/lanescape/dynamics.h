@@ -76,15 +76,16 @@ typedef struct lanescape_event_driven_report {
   size_t size;
   uint64_t collisions;
   double time, kinetic_energy;
-  double compressibility;  // p V / (N k_B T) since the start
+  double compressibility;  // p V / (N k_B T) since the start, where it is not a number
 } lanescape_event_driven_report;
 
-// masses: of each particle, or NULL for 1. instruction_set may be NULL for auto. Spheres must not overlap; edges are at least 2.05
-// of the largest diameter.
+// masses: of each particle, or NULL for 1. instruction_set may be NULL for auto. Spheres must not overlap by more than rounding,
+// 1e-12 of their distance at contact; edges are at least 2.05 of the largest diameter.
 lanescape_status lanescape_event_driven_create(size_t particles, const double* radii, const double* masses, const double* positions,
                                                const double box[3], const char* instruction_set, lanescape_event_driven** dynamics);
 lanescape_status lanescape_event_driven_draw_velocities(lanescape_event_driven* dynamics, uint64_t seed);
 lanescape_status lanescape_event_driven_set_velocities(lanescape_event_driven* dynamics, const double* velocities);
+// LANESCAPE_GOAL_NOT_REACHED if ten million events pass without a collision, as when spheres fly side by side.
 lanescape_status lanescape_event_driven_collide(lanescape_event_driven* dynamics, uint64_t collisions);
 lanescape_status lanescape_event_driven_advance_to(lanescape_event_driven* dynamics, double time);
 lanescape_status lanescape_event_driven_describe(const lanescape_event_driven* dynamics, lanescape_event_driven_report* report);

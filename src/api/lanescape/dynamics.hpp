@@ -29,6 +29,7 @@ class LANESCAPE_API MolecularDynamics {
   // Velocities from Maxwell's distribution without total momentum, scaled so that sum m v^2 / 2 = (3/2) N T.
   void draw_velocities(double temperature, std::uint64_t seed);
   void set_velocities(std::span<const double> velocities);
+  // Throws Error(bad_input) where the landscape's gradient is not finite.
   void run(std::uint64_t steps);
 
   std::uint64_t steps() const;
@@ -38,7 +39,8 @@ class LANESCAPE_API MolecularDynamics {
   std::vector<double> positions() const;
   std::vector<double> velocities() const;
   // The state as bytes, and back: positions, velocities, counters. On one instruction set the trajectory goes on with the same bits
-  // if the landscape's energies depend on nothing but positions.
+  // if the landscape's energies depend on nothing but positions. Bytes that were changed, or are of another number of particles,
+  // throw Error(bad_input) and leave the object as it is.
   std::string state() const;
   void restore(const std::string& state);
 
@@ -50,7 +52,8 @@ class LANESCAPE_API MolecularDynamics {
 // Hard spheres: free flight between elastic collisions, event by event. Time in sigma sqrt(m / k_B T), with T = 1.
 class LANESCAPE_API EventDrivenDynamics {
  public:
-  // `masses`: one per particle, or empty for 1. Spheres must not overlap; edges are at least 2.05 of the largest diameter.
+  // `masses`: one per particle, or empty for 1. Spheres must not overlap by more than rounding, 1e-12 of their distance at contact;
+  // edges are at least 2.05 of the largest diameter.
   EventDrivenDynamics(std::span<const double> radii, std::span<const double> masses, std::span<const double> positions,
                       const std::array<double, 3>& box, const std::string& instruction_set = "auto");
   ~EventDrivenDynamics();
@@ -59,13 +62,14 @@ class LANESCAPE_API EventDrivenDynamics {
 
   void draw_velocities(std::uint64_t seed);  // at T = 1
   void set_velocities(std::span<const double> velocities);
+  // Throws Error(goal_not_reached) if ten million events pass without a collision, as when spheres fly side by side.
   void collide(std::uint64_t collisions);
   void advance_to(double time);
 
   std::uint64_t collisions() const;
   double time() const;
   double kinetic_energy() const;
-  double compressibility() const;         // Z = p V / (N k_B T) since the start
+  double compressibility() const;         // Z = p V / (N k_B T) since the start, where it is not a number
   std::vector<double> positions() const;  // unwrapped
   std::vector<double> velocities() const;
   // The state as bytes, and back. All spheres are brought to one time first: the trajectory goes on with other bits than without.

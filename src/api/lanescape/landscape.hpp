@@ -11,6 +11,7 @@ LANESCAPE_ABI_BEGIN
 
 // A potential-energy landscape V(R). Path finders and dynamics take any: implement it to let them run on a host's own energies.
 // Positions are x0 y0 z0 x1 ..., 3N numbers, unwrapped. Calls come from the thread that calls the finder. Exceptions pass through.
+// A gradient that is not finite ends the work with Error(bad_input); an energy that is not a number is above every limit.
 class LANESCAPE_API Landscape {
  public:
   virtual ~Landscape() = default;

@@ -322,7 +322,8 @@ typedef struct lanescape_landscape {
   void* user;  // passed to evaluate
   size_t particles;
   // Writes V of unwrapped positions and, unless it is NULL, dV/dR, 3N numbers. Returns 0, or a code that ends the search or run
-  // with LANESCAPE_CALLBACK_FAILED. Called from the caller's thread.
+  // with LANESCAPE_CALLBACK_FAILED. Called from the caller's thread. A gradient that is not finite is LANESCAPE_BAD_INPUT, an
+  // energy that is not a number above every limit.
   int (*evaluate)(void* user, const double* positions, double* gradient, double* energy);
 } lanescape_landscape;
 

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -79,6 +81,30 @@ TEST(MolecularDynamics, RefusesWhatCannotBe) {
   EXPECT_EQ(refusal([&] { dynamics.set_velocities(std::vector<double>(2)); }), "2 velocity components were given: 3 are needed");
 }
 
+TEST(MolecularDynamics, RefusesTheStateOfAnotherNumberOfParticles) {
+  Springs one(1), two(2);
+  MolecularDynamics of_one(one, {}, std::vector<double>(3, 1.0), 1e-3), of_two(two, {}, std::vector<double>(6, 1.0), 1e-3);
+  EXPECT_EQ(refusal([&] { of_one.restore(of_two.state()); }), "state: it is of 2 particles: one of 1 is needed");
+}
+
+TEST(MolecularDynamics, EndsWhereTheGradientIsNotFinite) {
+  class Edge final : public Landscape {
+   public:
+    std::size_t particles() const override { return 2; }
+    double energy(std::span<const double>) override { return 0.0; }
+    double energy_and_gradient(std::span<const double> r, std::span<double> gradient) override {
+      std::fill(gradient.begin(), gradient.end(), 0.0);
+      gradient[4] = r[4] > 1.0 ? std::numeric_limits<double>::infinity() : 0.0;
+      return 0.0;
+    }
+  } edge;
+  MolecularDynamics dynamics(edge, {}, std::vector<double>(6), 1.0);
+  dynamics.set_velocities(std::vector<double>{0.0, 0.0, 0.0, 0.0, 0.75, 0.0});
+  dynamics.run(1);
+  EXPECT_EQ(refusal([&] { dynamics.run(1); }),
+            "landscape: gradient component inf of particle 1 (from 0) is not allowed: it must be finite");
+}
+
 TEST(EventDrivenDynamics, ExchangesTheVelocitiesOfEqualSpheres) {
   const std::vector<double> radii = {0.5, 0.5}, positions = {2.0, 5.0, 5.0, 4.0, 5.0, 5.0};
   EventDrivenDynamics dynamics(radii, {}, positions, {10.0, 10.0, 10.0});
@@ -110,11 +136,36 @@ TEST(EventDrivenDynamics, GoesOnFromAStateWithTheSameBits) {
   EXPECT_GT(whole.compressibility(), 1.0);
 }
 
+TEST(EventDrivenDynamics, TakesItsOwnLaterPositions) {
+  const Start start = make_start(Model::named("hard-sphere-binary"), 64, 0.5);
+  std::vector<double> radii;
+  for (const double d : start.diameters) radii.push_back(0.5 * d);
+  EventDrivenDynamics dynamics(radii, {}, start.positions, start.box);
+  dynamics.draw_velocities(3);
+  for (int k = 0; k < 100; ++k) {
+    dynamics.collide(7);  // ends in contact, to rounding
+    EventDrivenDynamics again(radii, {}, dynamics.positions(), start.box);
+    again.set_velocities(dynamics.velocities());
+    again.collide(1);
+    EXPECT_NEAR(again.kinetic_energy(), 96.0, 1e-9);
+  }
+}
+
+TEST(EventDrivenDynamics, EndsWhereSpheresNeverMeet) {
+  const std::vector<double> radii = {0.5, 0.5}, positions = {2.0, 5.0, 5.0, 4.0, 5.0, 5.0};
+  EventDrivenDynamics dynamics(radii, {}, positions, {10.0, 10.0, 10.0});
+  dynamics.set_velocities(std::vector<double>{1.0, 0.0, 0.0, 1.0, 0.0, 0.0});
+  EXPECT_NE(refusal([&] { dynamics.collide(1); }, ErrorCode::goal_not_reached).find("no spheres collide within 10000000 events"),
+            std::string::npos);
+  dynamics.set_velocities(std::vector<double>{1e200, 0.0, 0.0, 0.0, 0.0, 0.0});
+  EXPECT_EQ(refusal([&] { dynamics.collide(1); }), "velocities are too large: their kinetic energy must be finite");
+}
+
 TEST(EventDrivenDynamics, RefusesOverlaps) {
   EXPECT_NE(refusal([] {
               EventDrivenDynamics(std::vector<double>{0.5, 0.5}, {}, std::vector<double>{1.0, 1.0, 1.0, 1.5, 1.0, 1.0},
                                   {9.0, 9.0, 9.0});
-            }).find("particles 0 and 1 overlap by 0.5"),
+            }).find("particles 0 and 1 overlap: their gap is -0.5"),
             std::string::npos);
 }
 
