@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <exception>
-#include <vector>
 
 #include "core/float_environment.hpp"
 
@@ -22,18 +21,22 @@ bool threads_are_left() {
 }  // namespace
 
 void run_on_threads(int parts, const std::function<void(int)>& body) {
-  std::vector<std::exception_ptr> failures(static_cast<std::size_t>(parts));
+  std::exception_ptr failure;  // of the first part that fails
+  int failed = parts;
 #pragma omp parallel for schedule(static, 1) num_threads(parts) if (threads_are_left())
   for (int part = 0; part < parts; ++part) {
     const FloatEnvironment environment;
     try {
       body(part);
     } catch (...) {
-      failures[static_cast<std::size_t>(part)] = std::current_exception();
+#pragma omp critical(lanescape_failure)
+      if (part < failed) {
+        failed = part;
+        failure = std::current_exception();
+      }
     }
   }
-  for (const auto& failure : failures)
-    if (failure) std::rethrow_exception(failure);
+  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace lanescape

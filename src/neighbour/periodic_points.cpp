@@ -222,19 +222,19 @@ void PeriodicPoints::sort_species(const AlignedArray& positions, std::size_t spe
   grid.first[cell_count] = static_cast<std::uint32_t>(next);
   slots_.resize(next);
   shifts_.resize(next);
-  std::vector<std::uint8_t> own(next - base);
+  own_.resize(next - base);
   for_each_part(threads_, [&](int part) {
     const auto p = static_cast<std::size_t>(part);
     for (const Image& image : images_[p]) {
       const std::uint32_t place = places_[p][image.cell]++;
       slots_[place] = image.slot;
       shifts_[place] = shift_of<sparse>(image, home_of<sparse>(positions, image.slot));
-      own[place - base] = image.boxes == std::array<std::int16_t, 3>{};
+      own_[place - base] = image.boxes == std::array<std::int16_t, 3>{};
     }
   });
   grid.rows.clear();
   for (std::size_t k = base; k < next; ++k)
-    if (own[k - base]) grid.rows.push_back(static_cast<std::uint32_t>(kernels::point_width * k));
+    if (own_[k - base]) grid.rows.push_back(static_cast<std::uint32_t>(kernels::point_width * k));
 }
 
 void PeriodicPoints::stretch_to(const Box& box, int part) {

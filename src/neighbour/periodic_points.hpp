@@ -113,6 +113,7 @@ class PeriodicPoints {
   // Scratch arrays of a sort, kept to reuse their memory.
   std::vector<AlignedVector<Image>> images_;
   std::vector<AlignedVector<std::uint32_t>> places_;
+  std::vector<std::uint8_t> own_;  // whether a point is in the box, no image
 };
 
 }  // namespace lanescape

@@ -39,16 +39,15 @@ void PairInteraction::energies_without_list(const AlignedArray& reduced, Aligned
   }
   if (!nearest_) nearest_ = std::make_unique<NearestRows>(model_, layout_);
   const kernels::PairKernels& kernels = table_->pair_kernels(model_.kernel_form().kernel);
-  std::vector<std::uint32_t> others;
   for (std::size_t i = 0; i < layout_.size(); ++i) {
-    others.clear();
+    others_.clear();
     const auto slot = layout_.slot_of(i);
     const auto excluded = exclusions_ ? exclusions_->of(slot) : std::span<const std::uint32_t>{};
     for (const auto& block : layout_.blocks())
       for (std::size_t other = block.begin; other < block.begin + block.count; ++other)
         if (other != slot && !std::binary_search(excluded.begin(), excluded.end(), other))
-          others.push_back(static_cast<std::uint32_t>(other));
-    energies[slot] = kernels.list_energy(nearest_->row(reduced, box, slot, others));
+          others_.push_back(static_cast<std::uint32_t>(other));
+    energies[slot] = kernels.list_energy(nearest_->row(reduced, box, slot, others_));
   }
 }
 

@@ -97,6 +97,7 @@ class PairInteraction {
   std::unique_ptr<PairSums> sums_;
   std::unique_ptr<ListSums> spare_;  // for energies() where sums_ has no list
   std::unique_ptr<NearestRows> nearest_;
+  std::vector<std::uint32_t> others_;  // for one of its rows
   std::shared_ptr<const Exclusions> exclusions_;  // null: none
   Evaluation constants_;
 };

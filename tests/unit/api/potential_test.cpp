@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "allocations.hpp"
 #include "configuration/particle_layout.hpp"
 #include "dispatch/isa.hpp"
 #include "interaction/pair/pair_interaction.hpp"
@@ -198,6 +199,31 @@ TEST(Potential, OfManyParticlesTakesThemInAnyOrder) {
     z.push_back(positions[3 * i + 2]);
   }
   EXPECT_EQ(copy.evaluate(Vectors<const double>::separate(x, y, z), {}).energy, potential.energy(positions));
+}
+
+TEST(Potential, AllocatesNothingAfterTheFirstCallOfAKind) {
+  for (const char* images : {"all", "minimum"})
+    for (const std::size_t particles : {108U, 1000U, 6000U})
+      for (const int threads : {1, 2}) {
+        const Model model = Model::named("kob-andersen", {.images = images});
+        const Start start = make_start(model, particles, 1.2);
+        Potential potential(model, start.species, start.box, {.threads = threads});
+        std::vector<double> forces(3 * particles), energies(particles), moved = start.positions;
+        const auto call = [&] {
+          potential.energy(moved);
+          potential.evaluate(moved, {.energies = energies});
+          potential.evaluate(moved, {.forces = Vectors<double>::interleaved(forces), .stress = true});
+          for (const double stretch : {1.001, 1.0}) {
+            potential.set_box({stretch * start.box[0], stretch * start.box[1], stretch * start.box[2]});
+            potential.energy_and_forces(moved, forces);
+          }
+        };
+        call();
+        call();
+        const std::size_t before = testing::allocations();
+        for (int k = 0; k < 10; ++k) call();
+        EXPECT_EQ(testing::allocations(), before) << images << ' ' << particles << ' ' << threads;
+      }
 }
 
 TEST(Potential, CanBeMovedAndCopied) {

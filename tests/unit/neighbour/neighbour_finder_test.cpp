@@ -5,39 +5,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
-#include <new>
 #include <random>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "allocations.hpp"
 #include "every_isa.hpp"
 #include "neighbour/pair_rows.hpp"
 #include "refusal.hpp"
-
-namespace {
-std::size_t allocations = 0;
-}
-
-// Counts what is allocated; the library's arrays come through the second one.
-[[gnu::noinline]] void* operator new(std::size_t bytes) {
-  ++allocations;
-  if (void* memory = std::malloc(bytes)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void* operator new(std::size_t bytes, std::align_val_t alignment) {
-  ++allocations;
-  const auto line = static_cast<std::size_t>(alignment);
-  if (void* memory = std::aligned_alloc(line, (bytes + line - 1) / line * line)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
 
 namespace lanescape {
 namespace {
@@ -313,12 +291,12 @@ TEST(NeighbourFinder, AllocatesNothingAfterTheFirstCall) {
       NeighbourFinder finder({.cutoffs = {2.5}, .order = order, .quantities = {.segments = order == Order::sorted}});
       finder.find(system.positions, system.box);
       finder.neighbours(Point{1.0, 2.0, 3.0});
-      const std::size_t before = allocations;
+      const std::size_t before = testing::allocations();
       for (int call = 0; call < 100; ++call) {
         finder.find(system.positions, system.box);
         finder.neighbours(Point{1.0, 2.0, 3.0});
       }
-      EXPECT_EQ(allocations, before) << edge;
+      EXPECT_EQ(testing::allocations(), before) << edge;
     }
 }
 
