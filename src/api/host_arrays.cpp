@@ -28,12 +28,18 @@ void check_positions(std::size_t given, std::size_t particles) {
     throw_bad_input(fmt::format("{} coordinates were given for {} particles: {} are needed", given, particles, 3 * particles));
 }
 
+void check_positions(const Vectors<const double>& given, std::size_t particles) {
+  check_positions(3 * given.count, particles);
+  if (particles != 0 && (given.x == nullptr || given.y == nullptr || given.z == nullptr))
+    throw_bad_input("positions have a null pointer: arrays of x, y and z are needed");
+}
+
 void check_room(const char* what, std::size_t given, std::size_t needed) {
   if (given != needed) throw_bad_input(fmt::format("room for {} {} was given: {} are needed", given, what, needed));
 }
 
 const AlignedArray& HostArrays::positions(const Vectors<const double>& host) {
-  check_positions(3 * host.count, layout_.size());
+  check_positions(host, layout_.size());
   const FloatEnvironment environment;
   double* const slots[3] = {positions_.data(), positions_.data() + layout_.slots(), positions_.data() + 2 * layout_.slots()};
   double nothing = 0.0;  // x - x is 0, or not a number
@@ -69,6 +75,8 @@ void HostArrays::write_gradient(std::span<double> host) const {
 
 void HostArrays::write_forces(const Vectors<double>& host) const {
   check_room("force components", 3 * host.count, 3 * layout_.size());
+  if (layout_.size() != 0 && (host.y == nullptr || host.z == nullptr))
+    throw_bad_input("forces have a null pointer: arrays of x, y and z are needed");
   const double *const x = gradient_.data(), *const y = x + layout_.slots(), *const z = y + layout_.slots();
   for (std::size_t i = 0; i < layout_.size(); ++i) {
     const auto k = static_cast<std::ptrdiff_t>(i) * host.stride;

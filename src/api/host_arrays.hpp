@@ -12,6 +12,7 @@ namespace lanescape {
 
 // Throw Error(bad_input) where an array of the host has not the length that N particles need.
 void check_positions(std::size_t given, std::size_t particles);
+void check_positions(const Vectors<const double>& given, std::size_t particles);  // null pointers too
 void check_room(const char* what, std::size_t given, std::size_t needed);
 
 // Arrays of a host, in the user's order, and the library's, in the layout's. Keeps the memory of both directions.

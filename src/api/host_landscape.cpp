@@ -21,7 +21,7 @@ MassMixture::MassMixture(std::span<const double> masses, std::size_t particles) 
   }
   if (masses.empty()) known.emplace(1.0, 0);
   mixture.species.resize(known.size());
-  for (const auto& [mass, s] : known) mixture.species[static_cast<std::size_t>(s)] = {fmt::format("mass {}", mass), mass};
+  for (const auto& [mass, s] : known) mixture.species[static_cast<std::size_t>(s)] = {fmt::format("mass-{}", mass), mass};
 }
 
 HostLandscape::HostLandscape(Landscape& host, const ParticleLayout& layout, Isa isa)

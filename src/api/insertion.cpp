@@ -4,6 +4,7 @@
 
 #include "api/access.hpp"
 #include "api/host_arrays.hpp"
+#include "api/pair_models.hpp"
 #include "core/coordinate_checks.hpp"
 #include "core/error.hpp"
 #include "core/option_checks.hpp"
@@ -16,16 +17,14 @@ namespace lanescape {
 LANESCAPE_ABI_BEGIN
 namespace {
 
-const PairModel& pair_model(const Model& model) {
-  if (const auto* pairs = std::get_if<PairModel>(&detail::Access::of(model))) return *pairs;
-  throw_bad_input(fmt::format("insertion into model {} is not possible: models of pair potentials are needed", model.name()));
-}
-
 Configuration fluid_of(const PairModel& model, std::span<const int> species, std::span<const double> positions,
                        const std::array<double, 3>& box, const std::vector<double>& diameters) {
   check_positions(positions.size(), species.size());
-  if (model.form->has_diameters) check_room("diameters", diameters.size(), species.size());
-  Configuration fluid{Box{box}, {species.begin(), species.end()}, {positions.begin(), positions.end()}, {}, diameters};
+  Configuration fluid{Box{box},
+                      {species.begin(), species.end()},
+                      {positions.begin(), positions.end()},
+                      {},
+                      checked_diameters(model, diameters, species.size())};
   check_separations(fluid, model);
   return fluid;
 }
@@ -65,7 +64,7 @@ Inserter::Inserter(const Model& model, std::span<const int> species, std::span<c
 
 Inserter::Inserter(const Model& model, std::span<const int> species, std::span<const double> positions,
                    const std::array<double, 3>& box, const Options& options) {
-  const PairModel& pairs = pair_model(model);
+  const PairModel& pairs = pair_model(model, "an Inserter");
   implementation_ = std::make_unique<Implementation>(
       Implementation{ProbeField(pairs, fluid_of(pairs, species, positions, box, options.diameters), options.species,
                                 kernel_table(choose_isa(options.instruction_set)), options.diameter),

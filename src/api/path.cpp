@@ -117,6 +117,8 @@ Path find_path(const Model& model, std::span<const int> species, const std::arra
   ConfigurationPair pair{{Box{box}, {species.begin(), species.end()}, {start.begin(), start.end()}}, {}};
   check_species(pair.start.species, model.species_count());
   if (const auto* spheres = std::get_if<HardSphereModel>(&any)) pair.start.radii = spheres->radii_of(pair.start.species);
+  if (!diameters.empty() && !model.has_diameters() && !model.is_hard())
+    throw_bad_input(fmt::format("model {} has no diameters of particles: none are allowed", model.name()));
   if (model.has_diameters()) pair.start.diameters.assign(diameters.begin(), diameters.end());
   pair.finish = pair.start;
   pair.finish.positions.assign(finish.begin(), finish.end());

@@ -6,7 +6,7 @@
 
 #include "api/access.hpp"
 #include "api/host_arrays.hpp"
-#include "configuration/model_traits.hpp"
+#include "api/pair_models.hpp"
 #include "configuration/space_order.hpp"
 #include "core/error.hpp"
 #include "core/option_checks.hpp"
@@ -18,25 +18,6 @@
 
 namespace lanescape {
 LANESCAPE_ABI_BEGIN
-namespace {
-
-const PairModel& pair_model(const Model& model) {
-  const auto* pairs = std::get_if<PairModel>(&detail::Access::of(model));
-  if (pairs == nullptr)
-    throw_bad_input(fmt::format("model {} is made of {}: a Potential needs a model of a pair potential; {}", model.name(),
-                                traits_of(detail::Access::of(model)).particles,
-                                model.has_states() ? "StateSystem is for sites in states" : "HardSpheres is for hard spheres"));
-  return *pairs;
-}
-
-const std::vector<double>& checked_diameters(const PairModel& model, const std::vector<double>& given, std::size_t particles) {
-  if (model.form->has_diameters) check_room("diameters", given.size(), particles);
-  if (!model.form->has_diameters && !given.empty())
-    throw_bad_input(fmt::format("model {} has no diameters of particles: none are allowed", model.name));
-  return given;
-}
-
-}  // namespace
 
 struct Potential::Implementation {
   Implementation(Model given, std::span<const int> species_given, const std::array<double, 3>& box_given, Options with)
@@ -44,12 +25,13 @@ struct Potential::Implementation {
         species(species_given.begin(), species_given.end()),
         box{box_given},
         options(std::move(with)),
-        order(species, checked_diameters(pair_model(model), options.diameters, species.size()), model.species_count()),
+        order(species, checked_diameters(pair_model(model, "a Potential"), options.diameters, species.size()),
+              model.species_count()),
         arrays(order.layout()),
         interaction(make()) {}
 
   PairInteraction make() const {
-    return {pair_model(model),
+    return {pair_model(model, "a Potential"),
             box,
             arrays.layout(),
             kernel_table(choose_isa(options.instruction_set)),
@@ -59,7 +41,7 @@ struct Potential::Implementation {
   // Positions in the order of the interaction, which is made anew where the order in space has changed.
   const AlignedArray& slots_of(const Vectors<const double>& host) {
     if (species.size() >= ParticleLayout::sorted_from) {
-      check_positions(3 * host.count, species.size());
+      check_positions(host, species.size());
       const NeighbourList* list = interaction.list();
       if (order.renew(interleaved(host), box, list != nullptr ? list->rebuilds() : 0)) {
         arrays = HostArrays(order.layout());
@@ -168,7 +150,7 @@ Evaluation Potential::evaluate(const Vectors<const double>& positions, const Out
   if (outputs.stress) {
     const auto e = interaction.energy_and_stress(slots, arrays.gradient());
     result = {e.energy, e.virial, {}};
-    for (std::size_t k = 0; k < 6; ++k) result.stress[k] = -e.virial_tensor[k] / implementation_->box.volume();
+    for (std::size_t k = 0; k < 6; ++k) result.stress[k] = 0.0 - e.virial_tensor[k] / implementation_->box.volume();
   }
   if (!outputs.stress || mixed) {
     const auto e = interaction.energy_and_gradient(slots, arrays.gradient());
@@ -189,7 +171,7 @@ ParticleMoves::ParticleMoves(const Model& model, std::span<const int> species, s
 
 ParticleMoves::ParticleMoves(const Model& model, std::span<const int> species, std::span<const double> positions,
                              const std::array<double, 3>& box, const Options& options) {
-  const PairModel& pairs = pair_model(model);
+  const PairModel& pairs = pair_model(model, "ParticleMoves");
   check_positions(positions.size(), species.size());
   check_species(species, pairs.species.size());
   const Configuration fluid{Box{box},

@@ -190,7 +190,7 @@ Evaluation StateSystem::evaluate(const Vectors<const double>& positions, const O
                                                     : interaction.energy_and_gradient(slots, arrays.gradient());
   if (forces) arrays.write_forces(outputs.forces);
   Evaluation result{.energy = e.energy, .virial = e.virial};
-  for (std::size_t k = 0; outputs.stress && k < 6; ++k) result.stress[k] = -e.virial_tensor[k] / box.volume();
+  for (std::size_t k = 0; outputs.stress && k < 6; ++k) result.stress[k] = 0.0 - e.virial_tensor[k] / box.volume();
   return result;
 }
 

@@ -8,6 +8,11 @@
 #include "core/error.hpp"
 
 namespace lanescape {
+namespace {
+
+bool is_control(char c) { return static_cast<unsigned char>(c) < 32 || c == 127; }
+
+}  // namespace
 
 int Mixture::find_species(std::string_view symbol) const {
   std::string names;
@@ -36,8 +41,12 @@ std::vector<double> Mixture::masses_of(const std::vector<int>& species_of_partic
 }
 
 void Mixture::check_species() const {
+  if (std::any_of(name.begin(), name.end(), is_control))
+    throw_bad_input("the name of a model is one line, without control characters");
   if (species.empty()) throw_bad_input(fmt::format("model {} has no species", name));
   for (const Species& s : species) {
+    if (std::any_of(s.name.begin(), s.name.end(), [](char c) { return c == ' ' || is_control(c); }))
+      throw_bad_input(fmt::format("model {}: the name of a species is a column in files: blanks are not allowed in it", name));
     if (!(s.mass > 0.0) || !std::isfinite(s.mass))
       throw_bad_input(fmt::format("species {}: mass {} is not allowed, it must be finite and above 0", s.name, s.mass));
     if (!(s.fraction >= 0.0 && s.fraction <= 1.0))

@@ -73,19 +73,19 @@ const std::string& isa_of_environment() {
 
 std::optional<Isa> forced_isa(std::string_view request, const std::string& environment) {
   std::string wanted(request);
-  std::string where = "isa";
+  std::string where;
   if (wanted.empty() || wanted == "auto") {
     wanted = environment;
-    where = "LANESCAPE_ISA";
+    where = "LANESCAPE_ISA: ";
   }
   if (wanted.empty() || wanted == "auto") return std::nullopt;
   const std::vector<Isa> isas = available_isas();
   for (const Isa isa : every_isa)
     if (wanted == to_string(isa)) {
       if (std::find(isas.begin(), isas.end(), isa) != isas.end()) return isa;
-      throw_bad_input(where + ": instruction set " + wanted + " is not available here, available are " + names_of(isas));
+      throw_bad_input(where + "instruction set " + wanted + " is not available here, available are " + names_of(isas));
     }
-  throw_bad_input(where + ": unknown instruction set '" + wanted + "': available are auto, " + names_of(isas));
+  throw_bad_input(where + "unknown instruction set '" + wanted + "': available are auto, " + names_of(isas));
 }
 
 Isa choose_isa(std::string_view request, const std::string& environment) {

@@ -3,13 +3,13 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <lanescape/landscape.hpp>
 #include <lanescape/model.hpp>
+#include <lanescape/owned.hpp>
 
 namespace lanescape {
 LANESCAPE_ABI_BEGIN
@@ -46,7 +46,7 @@ class LANESCAPE_API MolecularDynamics {
 
  private:
   struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  detail::Owned<Implementation> implementation_;
 };
 
 // Hard spheres: free flight between elastic collisions, event by event. Time in sigma sqrt(m / k_B T), with T = 1.
@@ -78,7 +78,7 @@ class LANESCAPE_API EventDrivenDynamics {
 
  private:
   struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  detail::Owned<Implementation> implementation_;
 };
 
 // A configuration that the library made.

@@ -2,12 +2,12 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <lanescape/error.hpp>
+#include <lanescape/owned.hpp>
 
 namespace lanescape {
 LANESCAPE_ABI_BEGIN
@@ -45,7 +45,7 @@ class LANESCAPE_API HardSpheres {
 
  private:
   struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  detail::Owned<Implementation> implementation_;
 };
 
 LANESCAPE_ABI_END

@@ -3,13 +3,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <lanescape/model.hpp>
+#include <lanescape/owned.hpp>
 
 namespace lanescape {
 LANESCAPE_ABI_BEGIN
@@ -19,7 +19,7 @@ LANESCAPE_ABI_BEGIN
 struct InsertionSettings {
   double energy = 0.0;                 // U0, the target
   double tolerance = 0.01;             // of the error below
-  std::string measure = "relative";    // |U - U0| / |U0|; or absolute, running-mean
+  std::string measure = "relative";    // |U - U0| / |U0|, |U - U0| where |U0| < 1e-6; or absolute, running-mean
   std::string method = "usher";        // or usher-indirect, usher-near, screened, descent
   double largest_step = 0.0;           // 0: the published optimum for the density
   std::uint64_t most_trials = 10'000;  // of each insertion
@@ -73,7 +73,7 @@ class LANESCAPE_API Inserter {
 
  private:
   struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  detail::Owned<Implementation> implementation_;
 };
 
 LANESCAPE_ABI_END

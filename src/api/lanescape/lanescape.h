@@ -83,7 +83,7 @@ typedef struct lanescape_pair_parameters {
   const char* const* number_keys;
   const double* number_values;
   double cutoff;           // in units of sigma_ab; forms of a fixed range have their own
-  const char* truncation;  // shifted, plain, tail, shifted_force, smooth
+  const char* truncation;  // shifted, plain, tail, shifted-force, smooth
   const char* images;      // all, or minimum: the nearest image of a pair only
 } lanescape_pair_parameters;
 

@@ -2,6 +2,7 @@
 
 // What other programs link against, all of it. Lengths, energies and masses are in any consistent units; k_B = 1. Wherever a
 // function throws, it throws lanescape::Error with a code and one line saying what is wrong, where and what is allowed.
+// Objects that were moved from throw it too, until they are assigned to.
 
 #include <string>
 #include <vector>

@@ -14,7 +14,7 @@ LANESCAPE_ABI_BEGIN
 
 // One species of a model.
 struct ModelSpecies {
-  std::string name;       // chemical symbol, as files have it
+  std::string name;       // chemical symbol, as files have it: without blanks
   double mass = 1.0;      // [m]
   double fraction = 1.0;  // of the particles, where the library makes a start
 };
@@ -27,7 +27,7 @@ struct PairParameters {
   std::vector<double> sigma{};              // length of each pair of species
   std::map<std::string, double> numbers{};  // what the form has beside these, by the keys of docs/FORMATS.md
   double cutoff = 2.5;                      // in units of sigma_ab; forms of a fixed range have their own
-  std::string truncation = "shifted";       // plain, tail, shifted_force, smooth
+  std::string truncation = "shifted";       // plain, tail, shifted-force, smooth
   std::string images = "all";               // minimum: the nearest image of a pair only
   std::string name = "mixture";
 };
@@ -41,7 +41,7 @@ struct HardSphereParameters {
 
 // Changes of a named model; what is empty or 0 stays.
 struct ModelChanges {
-  double cutoff = 0.0;
+  double cutoff = 0.0;  // in units of sigma_ab
   std::string truncation{}, images{};
 };
 
@@ -54,6 +54,10 @@ struct Access;
 // All functions that make one throw Error(bad_input) with one line saying what is wrong and what is allowed.
 class LANESCAPE_API Model {
  public:
+  Model(const Model&) = default;  // a move copies: no model is ever empty
+  Model& operator=(const Model&) = default;
+  ~Model() = default;
+
   // A name of model_names(). Models by name are in reduced units: lengths in sigma, energies in epsilon.
   static Model named(std::string_view name, const ModelChanges& changes = {});
   static Model mixture(const PairParameters& parameters);

@@ -3,13 +3,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <lanescape/export.hpp>
+#include <lanescape/owned.hpp>
 
 namespace lanescape {
 LANESCAPE_ABI_BEGIN
@@ -81,7 +81,7 @@ class LANESCAPE_API NeighbourFinder {
 
  private:
   struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  detail::Owned<Implementation> implementation_;
 };
 
 // Pairs of particles within a cutoff as arrays of one length, with ASE's conventions (neighbor_list("ijSDd")). An entry for each

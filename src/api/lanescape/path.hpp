@@ -48,7 +48,8 @@ struct Path {
   bool reached() const { return outcome == "reached"; }
 };
 
-// Between two configurations of a model, unwrapped, in a periodic box. `diameters`: of each particle, for models that have them.
+// Between two configurations of a model, unwrapped, in a periodic box. `diameters`: of each particle, for models that have them;
+// hard spheres have those of their species.
 // Throws Error(bad_input) for ends that differ or coincide, overlap, or lie above the landscape energy.
 LANESCAPE_API Path find_path(const Model& model, std::span<const int> species, const std::array<double, 3>& box,
                              std::span<const double> start, std::span<const double> finish, const PathSettings& settings,

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -11,6 +10,7 @@
 
 #include <lanescape/landscape.hpp>
 #include <lanescape/model.hpp>
+#include <lanescape/owned.hpp>
 
 namespace lanescape {
 LANESCAPE_ABI_BEGIN
@@ -22,8 +22,13 @@ struct Vectors {
   std::size_t count = 0;
   std::ptrdiff_t stride = 3;
 
-  static Vectors interleaved(std::span<Number> xyz) { return {xyz.data(), xyz.data() + 1, xyz.data() + 2, xyz.size() / 3, 3}; }
-  // Throws Error(bad_input) for arrays of different lengths.
+  // These throw Error(bad_input) for a length that is not 3N, and for arrays of different lengths.
+  static Vectors interleaved(std::span<Number> xyz) {
+    if (xyz.size() % 3 != 0)
+      throw Error(ErrorCode::bad_input,
+                  "an array of " + std::to_string(xyz.size()) + " numbers holds no vectors: 3 for each are needed");
+    return {xyz.data(), xyz.data() + 1, xyz.data() + 2, xyz.size() / 3, 3};
+  }
   static Vectors separate(std::span<Number> x, std::span<Number> y, std::span<Number> z) {
     if (x.size() != y.size() || x.size() != z.size())
       throw Error(ErrorCode::bad_input, "arrays of x, y and z have " + std::to_string(x.size()) + ", " + std::to_string(y.size()) +
@@ -97,7 +102,7 @@ class LANESCAPE_API Potential final : public Landscape {
  private:
   friend struct detail::Access;
   struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  detail::Owned<Implementation> implementation_;
 };
 
 // Moves of one particle at a time, for Monte Carlo: what a move changes costs the particle's neighbours, whatever N. Double
@@ -127,7 +132,7 @@ class LANESCAPE_API ParticleMoves {
 
  private:
   struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  detail::Owned<Implementation> implementation_;
 };
 
 LANESCAPE_ABI_END

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <lanescape/owned.hpp>
 #include <lanescape/potential.hpp>
 
 namespace lanescape {
@@ -81,7 +82,7 @@ class LANESCAPE_API StateSystem final : public Landscape {
 
  private:
   struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  detail::Owned<Implementation> implementation_;
 };
 
 LANESCAPE_ABI_END

@@ -197,6 +197,8 @@ TEST(MakeEndPoints, OfBothFamiliesAreTheDistanceApart) {
     }
     settings.progress = [](double) { return false; };
     refusal([&] { make_end_points(model, start, settings); }, ErrorCode::goal_not_reached);
+    settings.threads = 0;
+    EXPECT_EQ(refusal([&] { make_end_points(model, start, settings); }), "0 threads are not allowed: from 1 to 4096");
   }
 }
 

@@ -83,8 +83,9 @@ TEST(Inserter, RefusesWhatCannotBe) {
   EXPECT_NE(refusal([&] { fluid.inserter.find({.energy = std::nan("")}); }).find("target energy nan"), std::string::npos);
   EXPECT_NE(refusal([&] { fluid.inserter.energy({0.0, std::nan(""), 0.0}); }).find("must be finite"), std::string::npos);
   EXPECT_NE(refusal([&] { fluid.inserter.add({0.0, std::nan(""), 0.0}); }).find("must be finite"), std::string::npos);
-  EXPECT_EQ(refusal([] { Inserter(Model::named("ucg"), {}, {}, {9.0, 9.0, 9.0}); }),
-            "insertion into model ucg is not possible: models of pair potentials are needed");
+  EXPECT_EQ(
+      refusal([] { Inserter(Model::named("ucg"), {}, {}, {9.0, 9.0, 9.0}); }),
+      "model ucg is made of sites with states: an Inserter needs a model of a pair potential; StateSystem is for sites in states");
 }
 
 }  // namespace

@@ -94,6 +94,13 @@ TEST(Model, RefusesWhatCannotBe) {
   p.epsilon.pop_back();
   EXPECT_EQ(refusal([&] { Model::mixture(p); }), "epsilon has 3 entries: 4 are needed, one for each pair of 2 species");
   p = argon_and_krypton();
+  p.species[1].name = "K r";
+  EXPECT_EQ(refusal([&] { Model::mixture(p); }),
+            "model mixture: the name of a species is a column in files: blanks are not allowed in it");
+  p = argon_and_krypton();
+  p.name = "two\nlines";
+  EXPECT_EQ(refusal([&] { Model::mixture(p); }), "the name of a model is one line, without control characters");
+  p = argon_and_krypton();
   p.sigma[1] = 7.0;
   EXPECT_FALSE(refusal([&] { Model::mixture(p); }).empty());  // not symmetric
   p = argon_and_krypton();

@@ -167,6 +167,8 @@ TEST(FindPath, RefusesWhatCannotBe) {
   EXPECT_EQ(refused(start, start, {}), "end points: the two end points coincide");
   EXPECT_EQ(refusal([&] { find_path(model, {}, cube, {}, {}, {}); }),
             "a path of no particles is not possible: at least one is needed");
+  EXPECT_EQ(refusal([&] { find_path(model, two, cube, start, finish, {}, start); }),
+            "model lennard-jones has no diameters of particles: none are allowed");
   EXPECT_EQ(refused(start, {0.0}, {}), "1 coordinates were given for 2 particles: 6 are needed");
   EXPECT_NE(refused(start, finish, {.method = "tunnel"}).find("unknown method 'tunnel'"), std::string::npos);
   EXPECT_NE(refused(start, finish, {.method = "away"}).find("method away is not for model lennard-jones"), std::string::npos);

@@ -277,6 +277,19 @@ TEST(Potential, RefusesSpeciesAndBoxesThatCannotBe) {
     EXPECT_NE(refused(0, edge, "kob-andersen").find("is not allowed: it must be from 1e-100 to 1e+100"), std::string::npos);
 }
 
+TEST(Potential, MovedFromIsRefusedUntilItIsAssignedTo) {
+  Potential potential = a_and_b(), other = std::move(potential);
+  const std::string message = "an object that was moved from cannot be used: assign to it first";
+  EXPECT_EQ(refusal([&] { potential.energy(apart(1.0)); }), message);
+  EXPECT_EQ(refusal([&] { potential.particles(); }), message);
+  EXPECT_EQ(refusal([&] { Potential copy(potential); }), message);
+  potential = other;
+  EXPECT_EQ(potential.energy(apart(1.0)), other.energy(apart(1.0)));
+  Model model = Model::named("wca");
+  const Model moved = std::move(model);
+  EXPECT_EQ(model, moved);
+}
+
 TEST(Potential, RefusesArraysOfAnotherLength) {
   Potential potential = a_and_b();
   std::vector<double> five(5, 0.0), six(6, 0.0);
@@ -284,6 +297,18 @@ TEST(Potential, RefusesArraysOfAnotherLength) {
   EXPECT_EQ(refusal([&] { potential.energy_and_forces(five, six); }), "5 coordinates were given for 2 particles: 6 are needed");
   EXPECT_EQ(refusal([&] { potential.energy_and_forces(six, five); }), "room for 5 force components was given: 6 are needed");
   EXPECT_EQ(refusal([&] { potential.energy_and_gradient(six, five); }), "room for 5 gradient components was given: 6 are needed");
+  EXPECT_EQ(refusal([&] { Vectors<double>::interleaved(five); }), "an array of 5 numbers holds no vectors: 3 for each are needed");
+  EXPECT_EQ(refusal([&] { potential.evaluate({.count = 2}, {}); }),
+            "positions have a null pointer: arrays of x, y and z are needed");
+  EXPECT_EQ(refusal([&] { potential.evaluate(apart(1.0), {.forces = {.x = six.data(), .count = 2}}); }),
+            "forces have a null pointer: arrays of x, y and z are needed");
+}
+
+TEST(Potential, OfNoParticlesIsZero) {
+  Potential nothing(Model::named("kob-andersen"), {}, cube);
+  const Evaluation e = nothing.evaluate(std::span<const double>(), {.stress = true});
+  EXPECT_EQ(e.energy, 0.0);
+  for (const double s : e.stress) EXPECT_FALSE(std::signbit(s));
 }
 
 }  // namespace
