@@ -20,15 +20,16 @@ lanescape_status lanescape_make_start(const lanescape_model* model, size_t parti
 // spheres: equilibrate and follow. Counts are steps, or collisions of hard spheres; 0 stands for the library's own.
 typedef struct lanescape_end_point_settings {
   size_t size;
-  double temperature;  // of soft models
-  double distance;     // 0: 108 at N = 108, else 10 sqrt(N), in the model's unit of length
-  size_t pairs;
-  int quick;               // shorter counts
-  uint64_t equilibration;  // of melting, cooling, checking and settling each
-  uint64_t between;        // from the end of one pair to the start of the next
-  uint64_t seed;
-  int threads;
-  const char *precision, *instruction_set;
+  double temperature;           // of soft models, 1
+  double distance;              // 0: 108 at N = 108, else 10 sqrt(N), in the model's unit of length
+  size_t pairs;                 // 1
+  int quick;                    // shorter counts, 0
+  uint64_t equilibration;       // of melting, cooling, checking and settling each, 0
+  uint64_t between;             // from the end of one pair to the start of the next, 0
+  uint64_t seed;                // 1
+  int threads;                  // 1; no effect on any result
+  const char* precision;        // double or mixed
+  const char* instruction_set;  // auto, or a word of lanescape_instruction_set()
   lanescape_progress progress;  // or NULL
   void* progress_user;
 } lanescape_end_point_settings;

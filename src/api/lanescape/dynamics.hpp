@@ -29,7 +29,8 @@ class LANESCAPE_API MolecularDynamics {
   // Velocities from Maxwell's distribution without total momentum, scaled so that sum m v^2 / 2 = (3/2) N T.
   void draw_velocities(double temperature, std::uint64_t seed);
   void set_velocities(std::span<const double> velocities);
-  // Throws Error(bad_input) where the landscape's gradient is not finite.
+  // Throws Error(bad_input) where the landscape's gradient is not finite. After an exception, of the landscape too, the object
+  // stands within a step: restore() a state before going on.
   void run(std::uint64_t steps);
 
   std::uint64_t steps() const;
@@ -83,7 +84,7 @@ class LANESCAPE_API EventDrivenDynamics {
 
 // A configuration that the library made.
 struct Start {
-  std::vector<int> species;
+  std::vector<int> species{};       // of each particle
   std::vector<double> positions{};  // 3N
   std::array<double, 3> box{};
   std::vector<double> diameters{};  // of each particle, where the model has them or is made of hard spheres
@@ -98,7 +99,7 @@ struct EndPoints {
   std::vector<double> start, finish;
   double distance = 0.0;    // in 3N space, the motion of the centre of mass removed
   std::uint64_t steps = 0;  // from start to finish; collisions of hard spheres
-  double time = 0.0;
+  double time = 0.0;        // likewise
 };
 
 // The protocol that makes end points: melt, cool, check the temperature, settle, and follow the trajectory over a distance; hard
@@ -107,13 +108,14 @@ struct EndPoints {
 struct EndPointSettings {
   double temperature = 1.0;  // of soft models
   double distance = 0.0;     // 0: 108 at N = 108, else 10 sqrt(N), in the model's unit of length
-  std::size_t pairs = 1;
+  std::size_t pairs = 1;     // to make, one after the other on one trajectory
   bool quick = false;
   std::uint64_t equilibration = 0;  // steps of melting, cooling, checking and settling each; collisions of hard spheres
   std::uint64_t between = 0;        // from the end of one pair to the start of the next
   std::uint64_t seed = 1;
-  int threads = 1;
-  std::string precision = "double", instruction_set = "auto";
+  int threads = 1;                       // no effect on any result
+  std::string precision = "double";      // or mixed
+  std::string instruction_set = "auto";  // or a name of instruction_sets()
   Progress progress{};
 };
 

@@ -23,7 +23,7 @@ struct Overlap {
 class LANESCAPE_API HardSpheres {
  public:
   struct Options {
-    std::string instruction_set = "auto";
+    std::string instruction_set = "auto";  // or a name of instruction_sets()
     // Above 0, any_overlap() keeps a list of pairs with gaps below `skin` smallest diameters, for configurations that follow each
     // other in small steps; it is rebuilt when a sphere has moved half of that.
     double skin = 0.0;

@@ -42,10 +42,10 @@ struct InsertedParticle {
 class LANESCAPE_API Inserter {
  public:
   struct Options {
-    int species = 0;                  // of the particle
-    double diameter = 1.0;            // of the particle, for models whose particles have diameters
-    std::vector<double> diameters{};  // of the fluid, likewise
-    std::string instruction_set = "auto";
+    int species = 0;                       // of the particle
+    double diameter = 1.0;                 // of the particle, for models whose particles have diameters
+    std::vector<double> diameters{};       // of the fluid, likewise
+    std::string instruction_set = "auto";  // or a name of instruction_sets()
   };
 
   // `positions` 3N, wrapped or not. O(N). Throws Error(bad_input).

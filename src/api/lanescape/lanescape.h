@@ -6,7 +6,8 @@
 // Functions return a status and never end the process; lanescape_last_error() says in one line what is wrong, where and what is
 // allowed. What they write is written only if the status is LANESCAPE_OK, unless stated otherwise. Structs begin with their size,
 // sizeof the struct; one of a size that this library does not know is refused. The functions *_init fill structs with the
-// library's defaults; where a struct of settings may be NULL, that stands for these.
+// library's defaults, which comments give after the field's meaning; where a struct of settings may be NULL, that stands for these.
+// A word that is NULL, as after *_init, is the first one of its comment.
 //
 // Objects are made by the functions that take a pointer to a handle, and freed by *_destroy, which accepts NULL. A destroyed handle
 // is refused until its memory serves a new object of its kind. An object serves one call at a time: a second one, from another
@@ -66,15 +67,15 @@ typedef int (*lanescape_progress)(void* user, double done);
 // Changes of a named model; what is NULL or 0 stays.
 typedef struct lanescape_model_changes {
   size_t size;
-  double cutoff;  // in units of sigma_ab
-  const char *truncation, *images;
+  double cutoff;                    // in units of sigma_ab
+  const char *truncation, *images;  // words as in lanescape_pair_parameters
 } lanescape_model_changes;
 
 // A mixture of `species` species with a pair potential of one form. Matrices are species x species, row-major and symmetric.
 typedef struct lanescape_pair_parameters {
   size_t size;
-  const char* name;
-  const char* form;  // a word of lanescape_pair_potential()
+  const char* name;  // mixture, or any one line
+  const char* form;  // lennard-jones, or another word of lanescape_pair_potential()
   size_t species;
   const char* const* names;          // chemical symbols
   const double *masses, *fractions;  // of each species, or NULL for 1
@@ -82,7 +83,7 @@ typedef struct lanescape_pair_parameters {
   size_t numbers;                    // what the form has beside these, by the keys of docs/FORMATS.md
   const char* const* number_keys;
   const double* number_values;
-  double cutoff;           // in units of sigma_ab; forms of a fixed range have their own
+  double cutoff;           // in units of sigma_ab, 2.5; forms of a fixed range have their own
   const char* truncation;  // shifted, plain, tail, shifted-force, smooth
   const char* images;      // all, or minimum: the nearest image of a pair only
 } lanescape_pair_parameters;
@@ -90,7 +91,7 @@ typedef struct lanescape_pair_parameters {
 // Additive hard spheres.
 typedef struct lanescape_hard_sphere_parameters {
   size_t size;
-  const char* name;
+  const char* name;  // hard-spheres, or any one line
   size_t species;
   const char* const* names;          // chemical symbols
   const double *masses, *fractions;  // of each species, or NULL for 1
@@ -129,7 +130,7 @@ lanescape_status lanescape_model_destroy(lanescape_model* model);
 // The potential energy of a soft model: of pairs, or of sites in states.
 typedef struct lanescape_potential_options {
   size_t size;
-  int threads;                  // that share an evaluation; no effect on any result
+  int threads;                  // that share an evaluation, 1; no effect on any result
   const char* precision;        // double, or mixed: relative errors near 1e-6
   const char* instruction_set;  // auto, or a word of lanescape_instruction_set()
   const double* diameters;      // of each particle, for models that have them
@@ -194,17 +195,17 @@ lanescape_status lanescape_moves_destroy(lanescape_moves* moves);
 // Pairs within a cutoff, with ASE's conventions (neighbor_list("ijSDd")). Objects keep their memory from call to call.
 typedef struct lanescape_neighbour_options {
   size_t size;
-  double cutoff;                       // of all pairs, where cutoffs is NULL
+  double cutoff;                       // of all pairs, where cutoffs is NULL; to be set
   size_t species;                      // of cutoffs
   const double* cutoffs;               // species x species, symmetric; pairs of cutoff 0 are never listed
-  int periodic[3];                     // axes; boxes have no meaning along others
-  double origin[3];                    // the box's corner
-  int half;                            // of (i, j) and (j, i) the one with j > i only
-  int sorted;                          // by i, j and shift; if not, faster, in an order that depends on the instruction set
-  int shifts, separations, distances;  // are wanted
-  int segments;                        // are wanted, of sorted pairs
-  int threads;                         // no effect on any result
-  const char* instruction_set;
+  int periodic[3];                     // axes, 1; boxes have no meaning along others
+  double origin[3];                    // the box's corner, 0
+  int half;                            // of (i, j) and (j, i) the one with j > i only, 0
+  int sorted;                          // by i, j and shift, 1; if 0, faster, in an order that depends on the instruction set
+  int shifts, separations, distances;  // are wanted, 1
+  int segments;                        // are wanted, of sorted pairs, 0
+  int threads;                         // 1; no effect on any result
+  const char* instruction_set;         // auto, or a word of lanescape_instruction_set()
 } lanescape_neighbour_options;
 
 // Arrays of the object, valid until its next call; what is not wanted is NULL. A particle's own images are among the pairs.
@@ -235,8 +236,8 @@ lanescape_status lanescape_neighbours_destroy(lanescape_neighbours* neighbours);
 // Overlaps of hard spheres. Touching is not overlapping.
 typedef struct lanescape_hard_sphere_options {
   size_t size;
-  const char* instruction_set;
-  // Above 0, lanescape_hard_spheres_any_overlap() keeps a list of pairs with gaps below `skin` smallest diameters, for
+  const char* instruction_set;  // auto, or a word of lanescape_instruction_set()
+  // 0. Above, lanescape_hard_spheres_any_overlap() keeps a list of pairs with gaps below `skin` smallest diameters, for
   // configurations that follow each other in small steps.
   double skin;
 } lanescape_hard_sphere_options;
@@ -263,23 +264,23 @@ lanescape_status lanescape_hard_spheres_destroy(lanescape_hard_spheres* spheres)
 // Insertion: one more particle in a fluid that stands still (doi 10.1063/1.1579475).
 typedef struct lanescape_inserter_options {
   size_t size;
-  int species;              // of the particle
-  double diameter;          // of the particle, for models whose particles have diameters
-  const double* diameters;  // of the fluid's particles, likewise
-  const char* instruction_set;
+  int species;                  // of the particle, 0
+  double diameter;              // of the particle, for models whose particles have diameters, 1
+  const double* diameters;      // of the fluid's particles, likewise
+  const char* instruction_set;  // auto, or a word of lanescape_instruction_set()
 } lanescape_inserter_options;
 
 typedef struct lanescape_insertion_settings {
   size_t size;
-  double energy;         // U0, the target
-  double tolerance;      // of the error below
-  const char* measure;   // relative: |U - U0| / |U0|; absolute, running-mean
+  double energy;         // U0, the target, 0
+  double tolerance;      // of the error below, 0.01
+  const char* measure;   // relative: |U - U0| / |U0|, |U - U0| where |U0| < 1e-6; absolute, running-mean
   const char* method;    // usher, usher-indirect, usher-near, screened, descent
   double largest_step;   // 0: the published optimum for the density
-  uint64_t most_trials;  // of each insertion
+  uint64_t most_trials;  // of each insertion, 10,000
   const double* region;  // where to search: 3 of the low and 3 of the high corner; NULL: the whole box
-  uint64_t seed;
-  int threads;  // no effect on any result
+  uint64_t seed;         // 1
+  int threads;           // 1; no effect on any result
 } lanescape_insertion_settings;
 
 // Where a search for `count` positions writes; what is NULL is not written.
@@ -335,13 +336,14 @@ typedef struct lanescape_path_settings {
   double avoidance_step;           // of each sphere that an avoidance step moves; 0: 1e-4 of that unit
   const char* fictitious;          // force between overlapping spheres in an avoidance step: harmonic, linear, cubic
   const double* landscape_energy;  // E_L; NULL: the higher of the two ends
-  int reverse;                     // search from the far end too and keep the shorter path
-  uint64_t max_steps;
-  uint64_t patience;  // steps without progress after which a path is stalled, times a factor of the method
-  size_t frames;      // configurations kept between the two ends
-  int threads;
-  const char *precision, *instruction_set;
-  lanescape_progress progress;  // or NULL
+  int reverse;                     // search from the far end too and keep the shorter path, 0
+  uint64_t max_steps;              // 1,000,000,000
+  uint64_t patience;               // steps without progress after which a path is stalled, times a factor of the method, 1000
+  size_t frames;                   // configurations kept between the two ends, 100
+  int threads;                     // 1; no effect on any result
+  const char* precision;           // double or mixed
+  const char* instruction_set;     // auto, or a word of lanescape_instruction_set()
+  lanescape_progress progress;     // or NULL
   void* progress_user;
 } lanescape_path_settings;
 

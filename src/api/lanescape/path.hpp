@@ -25,10 +25,11 @@ struct PathSettings {
   std::optional<double> landscape_energy{};  // E_L; nothing: the higher of the two ends
   bool reverse = false;                      // search from the far end too and keep the shorter path
   std::uint64_t max_steps = 1'000'000'000;
-  std::uint64_t patience = 1000;  // steps without progress after which a path is stalled, times a factor of the method
-  std::size_t frames = 100;       // configurations kept between the two ends
-  int threads = 1;
-  std::string precision = "double", instruction_set = "auto";
+  std::uint64_t patience = 1000;         // steps without progress after which a path is stalled, times a factor of the method
+  std::size_t frames = 100;              // configurations kept between the two ends
+  int threads = 1;                       // no effect on any result
+  std::string precision = "double";      // or mixed
+  std::string instruction_set = "auto";  // or a name of instruction_sets()
   Progress progress{};
 };
 

@@ -110,8 +110,8 @@ class LANESCAPE_API Potential final : public Landscape {
 class LANESCAPE_API ParticleMoves {
  public:
   struct Options {
-    std::string instruction_set = "auto";
-    std::vector<double> diameters{};  // of each particle, for models that have them
+    std::string instruction_set = "auto";  // or a name of instruction_sets()
+    std::vector<double> diameters{};       // of each particle, for models that have them
   };
 
   // The model has a pair potential; positions 3N, wrapped or not.

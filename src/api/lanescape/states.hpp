@@ -53,7 +53,7 @@ class LANESCAPE_API StateSystem final : public Landscape {
  public:
   struct Options {
     int threads = 1;
-    std::string instruction_set = "auto";
+    std::string instruction_set = "auto";  // or a name of instruction_sets()
     // In place of the model's: both or none, on one thread.
     std::shared_ptr<SiteOrderParameter> order_parameter{};
     std::shared_ptr<SiteResponse> response{};
