@@ -76,7 +76,10 @@ PreparedPair prepare_pair_on(const SoftLandscapeMaker& make, const Mixture& mixt
                              const ConfigurationPair& pair, const std::string& where, const PathRunOptions& options, Isa isa) {
   PreparedPair prepared = prepared_ends(mixture, layout, pair, isa);
   const auto landscape = in_kinematic_coordinates(make(), prepared.metric);
-  const double highest_end = std::max(landscape->energy(prepared.start), landscape->energy(prepared.goal));
+  const double ends[] = {landscape->energy(prepared.start), landscape->energy(prepared.goal)};
+  for (const double end : ends)
+    if (!std::isfinite(end)) throw_bad_input(fmt::format("{}: an end point has energy {}: it must be finite", where, end));
+  const double highest_end = std::max(ends[0], ends[1]);
   prepared.landscape_energy = options.landscape_energy.value_or(highest_end);
   if (!(highest_end <= prepared.landscape_energy))
     throw_bad_input(fmt::format("{}: an end point has energy {}, above the landscape energy {}", where, highest_end,

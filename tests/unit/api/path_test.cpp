@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -157,6 +158,22 @@ TEST(FindPath, FromBothEndsKeepsTheShorterWay) {
   const Path both = find_path(model, two, cube, start, finish, {.reverse = true});
   EXPECT_EQ(both.length, std::min(forward, backward));
   EXPECT_EQ(both.reversed, backward < forward);
+}
+
+TEST(FindPath, RefusesAnEndWithoutAnEnergy) {
+  class Hole final : public Landscape {
+   public:
+    std::size_t particles() const override { return 1; }
+    double energy(std::span<const double> r) override { return r[0] > 0.5 ? std::nan("") : 0.0; }
+    double energy_and_gradient(std::span<const double> r, std::span<double> gradient) override {
+      std::fill(gradient.begin(), gradient.end(), 0.0);
+      return energy(r);
+    }
+  } hole;
+  const std::vector<double> sound{0.0, 0.0, 0.0}, in_hole{1.0, 0.0, 0.0};
+  const std::string message = "end points: an end point has energy nan: it must be finite";
+  EXPECT_EQ(refusal([&] { find_path(hole, sound, in_hole, {}); }), message);
+  EXPECT_EQ(refusal([&] { find_path(hole, in_hole, sound, {}); }), message);
 }
 
 TEST(FindPath, RefusesWhatCannotBe) {
