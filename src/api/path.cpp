@@ -51,7 +51,7 @@ PathRunOptions options_of(const PathSettings& settings, const AnyModel& model) {
   return options;
 }
 
-void check_particles(std::size_t particles) {
+void refuse_no_particles(std::size_t particles) {
   if (particles == 0) throw_bad_input("a path of no particles is not possible: at least one is needed");
 }
 
@@ -111,7 +111,7 @@ Path search(const SearchSetup& setup, const Progress& progress) {
 Path find_path(const Model& model, std::span<const int> species, const std::array<double, 3>& box, std::span<const double> start,
                std::span<const double> finish, const PathSettings& settings, std::span<const double> diameters) {
   const AnyModel& any = detail::Access::of(model);
-  check_particles(species.size());
+  refuse_no_particles(species.size());
   check_positions(start.size(), species.size());
   check_positions(finish.size(), species.size());
   ConfigurationPair pair{{Box{box}, {species.begin(), species.end()}, {start.begin(), start.end()}}, {}};
@@ -134,7 +134,7 @@ Path find_path(Landscape& landscape, std::span<const double> start, std::span<co
       potential != nullptr && masses.empty() && is_its_model(*potential))
     return find_path(potential->model(), potential->species(), potential->box(), start, finish,
                      with_options_of(*potential, settings), potential->options().diameters);
-  check_particles(landscape.particles());
+  refuse_no_particles(landscape.particles());
   check_positions(start.size(), landscape.particles());
   check_positions(finish.size(), landscape.particles());
   check_finite_particles(start);
