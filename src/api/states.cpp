@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "api/access.hpp"
@@ -10,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/option_checks.hpp"
 #include "dispatch/isa.hpp"
+#include "interaction/pair/images.hpp"
 #include "interaction/state/state_mixture.hpp"
 
 namespace lanescape {
@@ -116,8 +118,23 @@ StateMixtureParts parts_of(const StateMixtureModel& model, const std::vector<int
   return parts;
 }
 
-ParticleLayout layout_in(const StateMixtureModel& model, const std::vector<int>& species, const Box& box) {
+// The model's, and those of a host's order parameter.
+void check_reaches(const StateMixtureModel& model, const SiteOrderParameter* order_parameter, const Box& box) {
   check_cutoff(model, box);
+  const int count = static_cast<int>(model.species.size());
+  for (int s = 0; order_parameter != nullptr && s < count; ++s)
+    for (int t = 0; t < count; ++t) {
+      const double reach = order_parameter->reach(s, t);
+      if (!(reach >= 0.0) || !std::isfinite(reach))
+        throw_bad_input(fmt::format(
+            "order parameter: reach {} of species {} and {} is not allowed: it must be finite and at least 0", reach, s, t));
+      check_reach(box, reach);
+    }
+}
+
+ParticleLayout layout_in(const StateMixtureModel& model, const std::vector<int>& species, const StateSystem::Options& options,
+                         const Box& box) {
+  check_reaches(model, options.order_parameter.get(), box);
   return ParticleLayout(species, model.species.size());
 }
 
@@ -128,7 +145,7 @@ struct StateSystem::Implementation {
       : model(std::move(given)),
         species(species_given.begin(), species_given.end()),
         box{box_given},
-        arrays(layout_in(state_model(model), species, box)),
+        arrays(layout_in(state_model(model), species, options, box)),
         interaction(parts_of(state_model(model), species, options), box, arrays.layout(),
                     kernel_table(choose_isa(options.instruction_set)), {.threads = checked_threads(options.threads)}) {}
 

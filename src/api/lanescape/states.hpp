@@ -24,7 +24,7 @@ struct SitePairs {
 class LANESCAPE_API SiteOrderParameter {
  public:
   virtual ~SiteOrderParameter() = default;
-  // The distance within which it looks at pairs of these species.
+  // The distance within which it looks at pairs of these species, at most 8.5 of the box's shortest edge.
   virtual double reach(int first_species, int second_species) const = 0;
   // Overwrites `values`, one per site.
   virtual void evaluate(const SitePairs& pairs, std::span<const int> species, std::span<double> values) = 0;

@@ -18,7 +18,7 @@ namespace {
 using testing::refusal;
 
 // The number of neighbours, each weighted with (1 - r^2/4)^3.
-class Neighbours final : public SiteOrderParameter {
+class Neighbours : public SiteOrderParameter {
  public:
   double reach(int, int) const override { return 2.0; }
   void evaluate(const SitePairs& pairs, std::span<const int>, std::span<double> values) override {
@@ -126,6 +126,20 @@ TEST(StateSystem, RefusesWhatCannotBe) {
             "2 threads are not allowed with an order parameter of the host: 1 is needed");
   EXPECT_EQ(refusal([&] { StateSystem(Model::named("lennard-jones"), sites.start.species, sites.start.box); }),
             "model lennard-jones has no states: a StateSystem needs one of sites in states, such as ucg");
+  class Reaching final : public Neighbours {
+   public:
+    explicit Reaching(double reach) : reach_(reach) {}
+    double reach(int, int) const override { return reach_; }
+
+   private:
+    double reach_;
+  };
+  const auto with_reach = [&](double reach) {
+    return make({.order_parameter = std::make_shared<Reaching>(reach), .response = std::make_shared<Logistic>()});
+  };
+  EXPECT_EQ(with_reach(-1.0), "order parameter: reach -1 of species 0 and 0 is not allowed: it must be finite and at least 0");
+  EXPECT_NE(with_reach(std::nan("")).find("reach nan"), std::string::npos);
+  EXPECT_NE(with_reach(1e9).find("reaches over more than 8 images"), std::string::npos);
   StateSystem system(sites.model, sites.start.species, sites.start.box);
   std::vector<double> energies(63);
   EXPECT_EQ(refusal([&] { system.evaluate(sites.start.positions, {.energies = energies}); }),
