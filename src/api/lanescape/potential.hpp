@@ -52,7 +52,8 @@ struct Evaluation {
 };
 
 // The potential energy of a soft model in a periodic orthorhombic box, evaluated by the vector kernels. Not thread-safe: one
-// object per thread. It keeps its memory: after the first call of a kind no call allocates, except where a neighbour list grows.
+// object per thread. It keeps its memory: after the first call of a kind no call allocates, except where a neighbour list
+// grows or the order below changes.
 //
 // From some thousand particles on it keeps an order of its own, that of the particles in space, and follows them when they diffuse
 // away. This order and the neighbour list follow from all positions before: the last bits of results do too.
