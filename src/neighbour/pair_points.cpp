@@ -7,21 +7,13 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "neighbour/point_cells.hpp"
 
 namespace lanescape {
 namespace {
 
-constexpr double points_per_run = 8.0;
-// The number of points that a search may read beyond the last.
-constexpr std::size_t read_ahead = 16;
 // The search gives offsets of records as 32-bit numbers.
 constexpr std::uint64_t most_points = 0xffffffffU / 4;
-
-std::size_t cell_along(double from_low, double cells_per_length, std::size_t cells) {
-  const double cell = from_low * cells_per_length;
-  if (!(cell > 0.0)) return 0;
-  return cell < static_cast<double>(cells) ? static_cast<std::size_t>(cell) : cells - 1;
-}
 
 kernels::GroupRow row_place(const Point& inside, std::uint32_t self) { return {{inside[0], inside[1], inside[2]}, self}; }
 

@@ -11,13 +11,11 @@
 #include "core/parallel.hpp"
 #include "neighbour/closed_gaps.hpp"
 #include "neighbour/least_cell.hpp"
+#include "neighbour/point_cells.hpp"
 
 namespace lanescape {
 namespace {
 
-constexpr double points_per_run = 8.0;
-// The number of points that a search may read beyond the last.
-constexpr std::size_t read_ahead = 16;
 // Beyond, wrapping leaves too few digits.
 constexpr double most_boxes_away = 1e12;
 
@@ -77,17 +75,6 @@ void PeriodicPoints::shape_grid(Grid& grid, std::size_t particles) const {
     grid.shape.cells_per_length[axis] = 1.0 / grid.shape.edge[axis];
   }
 }
-
-namespace {
-
-// The cell of a coordinate along one axis, the first or last if it lies outside, the first for NaN.
-std::size_t cell_along(double from_low, double cells_per_length, std::size_t cells) {
-  const double cell = from_low * cells_per_length;
-  if (!(cell > 0.0)) return 0;
-  return cell < static_cast<double>(cells) ? static_cast<std::size_t>(cell) : cells - 1;
-}
-
-}  // namespace
 
 std::size_t PeriodicPoints::Grid::cell_of(const std::array<double, 3>& position) const {
   std::size_t cell = 0;
