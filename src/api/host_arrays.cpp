@@ -61,8 +61,16 @@ AlignedArray& HostArrays::energies() {
   return energies_;
 }
 
+void HostArrays::check_room_of(const Outputs& outputs) const {
+  if (!outputs.energies.empty()) check_room("energies", outputs.energies.size(), layout_.size());
+  const Vectors<double>& forces = outputs.forces;
+  if (forces.x == nullptr) return;
+  check_room("force components", 3 * forces.count, 3 * layout_.size());
+  if (layout_.size() != 0 && (forces.y == nullptr || forces.z == nullptr))
+    throw_bad_input("forces have a null pointer: arrays of x, y and z are needed");
+}
+
 void HostArrays::write_energies(std::span<double> host) const {
-  check_room("energies", host.size(), layout_.size());
   for (std::size_t i = 0; i < layout_.size(); ++i) host[i] = energies_[layout_.slot_of(i)];
 }
 
@@ -74,9 +82,6 @@ void HostArrays::write_gradient(std::span<double> host) const {
 }
 
 void HostArrays::write_forces(const Vectors<double>& host) const {
-  check_room("force components", 3 * host.count, 3 * layout_.size());
-  if (layout_.size() != 0 && (host.y == nullptr || host.z == nullptr))
-    throw_bad_input("forces have a null pointer: arrays of x, y and z are needed");
   const double *const x = gradient_.data(), *const y = x + layout_.slots(), *const z = y + layout_.slots();
   for (std::size_t i = 0; i < layout_.size(); ++i) {
     const auto k = static_cast<std::ptrdiff_t>(i) * host.stride;

@@ -25,7 +25,9 @@ class HostArrays {
   const AlignedArray& positions(const Vectors<const double>& host);
   AlignedArray& gradient() { return gradient_; }
   AlignedArray& energies();  // of each slot
-  // Writes dV/dr, or -dV/dr, of the array above to the host.
+  // Throws Error(bad_input) for outputs that have no room for these particles.
+  void check_room_of(const Outputs& outputs) const;
+  // Writes dV/dr, or -dV/dr, of the array above to the host; there is room.
   void write_gradient(std::span<double> host) const;
   void write_forces(const Vectors<double>& host) const;
   void write_energies(std::span<double> host) const;

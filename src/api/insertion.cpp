@@ -1,7 +1,5 @@
 #include <lanescape/insertion.hpp>
 
-#include <fmt/format.h>
-
 #include "api/access.hpp"
 #include "api/host_arrays.hpp"
 #include "api/pair_models.hpp"

@@ -10,7 +10,6 @@
 #include "configuration/space_order.hpp"
 #include "core/error.hpp"
 #include "core/option_checks.hpp"
-#include "core/overloaded.hpp"
 #include "dispatch/isa.hpp"
 #include "interaction/pair/pair_interaction.hpp"
 #include "interaction/pair/pair_moves.hpp"
@@ -135,6 +134,7 @@ Evaluation Potential::evaluate(std::span<const double> positions, const Outputs&
 }
 
 Evaluation Potential::evaluate(const Vectors<const double>& positions, const Outputs& outputs) {
+  implementation_->arrays.check_room_of(outputs);
   const AlignedArray& slots = implementation_->slots_of(positions);
   HostArrays& arrays = implementation_->arrays;
   PairInteraction& interaction = implementation_->interaction;

@@ -196,6 +196,7 @@ Evaluation StateSystem::evaluate(std::span<const double> positions, const Output
 
 Evaluation StateSystem::evaluate(const Vectors<const double>& positions, const Outputs& outputs) {
   auto& [model, species, box, arrays, interaction] = *implementation_;
+  arrays.check_room_of(outputs);
   const AlignedArray& slots = arrays.positions(positions);
   if (!outputs.energies.empty()) {
     interaction.energies(slots, arrays.energies());

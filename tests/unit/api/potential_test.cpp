@@ -297,6 +297,10 @@ TEST(Potential, RefusesArraysOfAnotherLength) {
   EXPECT_EQ(refusal([&] { potential.energy_and_forces(five, six); }), "5 coordinates were given for 2 particles: 6 are needed");
   EXPECT_EQ(refusal([&] { potential.energy_and_forces(six, five); }), "room for 5 force components was given: 6 are needed");
   EXPECT_EQ(refusal([&] { potential.energy_and_gradient(six, five); }), "room for 5 gradient components was given: 6 are needed");
+  std::vector<double> energies(2, 7.0), three(3, 7.0);
+  EXPECT_EQ(refusal([&] { potential.evaluate(apart(1.1), {.forces = Vectors<double>::interleaved(three), .energies = energies}); }),
+            "room for 3 force components was given: 6 are needed");
+  EXPECT_EQ(energies, (std::vector<double>{7.0, 7.0}));
   EXPECT_EQ(refusal([&] { Vectors<double>::interleaved(five); }), "an array of 5 numbers holds no vectors: 3 for each are needed");
   EXPECT_EQ(refusal([&] { potential.evaluate({.count = 2}, {}); }),
             "positions have a null pointer: arrays of x, y and z are needed");
