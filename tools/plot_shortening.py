@@ -14,7 +14,7 @@ def read_trials(folder):
 
 def draw_shortening(folder, trials, result):
     """The length that each trial found and the shortest so far; the same lengths against the place of the changed configuration."""
-    figure, (left, right) = plt.subplots(1, 2, sharey=True, figsize=(10.0, 4.2), layout="constrained")
+    figure, (left, right) = plt.subplots(1, 2, sharey=True, figsize=(10.0, 5.4), layout="constrained")
     number, length, kept = trials["trial"], trials["length"], trials["accepted"] == 1
     shortest = np.minimum.accumulate(np.concatenate([[result["length_before"]], np.where(kept, length, np.inf)]))
     left.step(np.concatenate([[0], number]), shortest, where="post", color=BLUE, label="shortest so far")
@@ -24,7 +24,7 @@ def draw_shortening(folder, trials, result):
     left.xaxis.set_major_locator(MaxNLocator(integer=True))
     left.set_xlabel("trial")
     left.set_ylabel(r"path length  $g/\sigma$")
-    right.set_xlabel(r"distance of the changed configuration from the goal  $[\sigma]$")
+    right.set_xlabel(r"distance to the goal of what was changed  $[\sigma]$")
     legend_above(left)
     change = 100.0 * (1.0 - result["length"] / result["length_before"])
     title(figure, system_parts(result, None, None) + [f"{change:.3g} % shorter after {len(number)} trials"])
