@@ -59,7 +59,7 @@ PathResult one_way(const SearchSetup& setup, const Progress& progress) {
   const FloatEnvironment environment;
   const double share = setup.options.reverse ? 0.5 : 1.0;
   ProgressMonitor monitor(progress, setup.reversed ? share : 0.0, share);
-  const auto search = setup.options.method->begin(setup);
+  const auto search = begin_path(setup);
   while (!search->finished() && !monitor.stop_requested()) search->advance(monitor);
   return search->result();
 }

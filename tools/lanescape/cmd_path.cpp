@@ -18,8 +18,9 @@ namespace {
 
 constexpr Scope made_pairs{"pairs", "runs that make their end points, without --pair"};
 // Options that depend on the method.
-constexpr Scope direct_steps_of_a_length{"direct steps", "contour, escape and avoidance: the steps of away end at contacts"};
-constexpr Scope collision_avoidance{"method", "method avoidance"};
+constexpr Scope direct_steps_of_a_length{"direct steps",
+                                         "faithful contour, escape and avoidance: other steps have no given length"};
+constexpr Scope collision_avoidance{"method", "faithful method avoidance"};
 
 struct PathState {
   CommonOptions common;
@@ -27,7 +28,7 @@ struct PathState {
   EndPointSetup setup;
   std::vector<std::string> pair_files;
   std::optional<std::string> method, fictitious;
-  bool reverse = false, plot = false;
+  bool adaptive = false, reverse = false, plot = false;
   std::optional<double> step, avoidance_step, landscape_energy;
   std::uint64_t max_steps = FinderOptions{}.max_steps, frames = FinderOptions{}.frames;
 
@@ -35,6 +36,7 @@ struct PathState {
     PathRunOptions options;
     options.method = method ? &path_method(*method) : &default_path_method(is_hard(model));
     check_method(*options.method, model);
+    options.stepping = adaptive ? Stepping::adaptive : Stepping::faithful;
     options.direct_step = step;
     options.avoidance_step = avoidance_step;
     if (fictitious) options.fictitious = parse_contact_potential(*fictitious);
@@ -47,13 +49,14 @@ struct PathState {
     return options;
   }
 
-  RunKinds kinds(const AnyModel& model, const PathMethod& of_method) const {
-    const std::string with = fmt::format("with method {}", of_method.word);
+  RunKinds kinds(const AnyModel& model, const PathRunOptions& path) const {
+    const std::string with = fmt::format("with method {}{}", path.method->word, adaptive ? " and --adaptive" : "");
+    const bool avoids = path.stepping == Stepping::faithful && path.method->word == std::string_view("avoidance");
     return joined({{kind_if(pair_files.empty(), made_pairs, "without --pair", "with --pair")},
                    setup.kinds(!pair_files.empty()),
                    system.kinds(model, pair_files.empty() && setup.generates_start()),
-                   {common.folder_kind(), kind_if(of_method.word == std::string_view("avoidance"), collision_avoidance, with, with),
-                    kind_if(of_method.direct_step.has_value(), direct_steps_of_a_length, with, with)}});
+                   {common.folder_kind(), kind_if(avoids, collision_avoidance, with, with),
+                    kind_if(path.has_step_length(), direct_steps_of_a_length, with, with)}});
   }
 };
 
@@ -114,6 +117,7 @@ Json to_json(const PathResult& path, const PathMethod& method, const Mixture& mi
   json["ratio_squared"] = complete ? Json(path.ratio_squared()) : Json();
   json["participation_ratio"] = path.participation_number / particles;
   json["steps"] = {{"direct", path.direct_steps}, {method.word, path.detour_steps}};
+  json["lengths"] = {{"direct", path.direct_length}, {method.word, path.detour_length}};
   json["corrections"] = path.corrections;
   json["evaluations"] = path.evaluations;
   json["seconds"] = path.seconds;
@@ -136,17 +140,20 @@ void add_mean(Json& json, const std::vector<PathResult>& paths) {
   json["standard_error"] = estimate.error ? Json(*estimate.error) : Json();
 }
 
-void write_trace(std::ostream& out, const PathResult& path, const PathMethod& method) {
+// The share of direct steps since the row before is one of steps, or of their length where they are adaptive.
+void write_trace(std::ostream& out, const PathResult& path, const PathRunOptions& options) {
   fmt::print(out, "step,length,distance_to_goal,{},direct_fraction,participation_ratio\n",
-             method.is_hard ? "moved_particles" : "energy");
+             options.method->is_hard ? "moved_particles" : "energy");
+  const auto all = options.stepping == Stepping::adaptive ? PathRecorder::length : PathRecorder::step;
   const DecimatedTrace& trace = path.trace;
-  double step_before = 0.0, direct_before = 0.0;
+  double all_before = 0.0, direct_before = 0.0;
   for (std::size_t r = 0; r < trace.rows(); ++r) {
-    const double step = trace.at(r, PathRecorder::step), direct = trace.at(r, PathRecorder::direct_steps);
-    fmt::print(out, "{:.0f},{},{},{},{},{}\n", step, trace.at(r, PathRecorder::length), trace.at(r, PathRecorder::distance),
-               trace.at(r, PathRecorder::energy), (direct - direct_before) / (step - step_before),
+    const double direct = trace.at(r, PathRecorder::direct);
+    fmt::print(out, "{:.0f},{},{},{},{},{}\n", trace.at(r, PathRecorder::step), trace.at(r, PathRecorder::length),
+               trace.at(r, PathRecorder::distance), trace.at(r, PathRecorder::energy),
+               (direct - direct_before) / (trace.at(r, all) - all_before),
                trace.at(r, PathRecorder::participation) / static_cast<double>(path.frames.front().size()));
-    step_before = step;
+    all_before = trace.at(r, all);
     direct_before = direct;
   }
 }
@@ -155,7 +162,8 @@ void write_histograms(std::ostream& out, const PathResult& path) {
   out << "quantity,value,steps\n";
   for (const StepHistogram& h : path.histograms)
     for (std::size_t k = 0; k < h.counts.size(); ++k)
-      if (h.counts[k] > 0) fmt::print(out, "{},{:.10g},{}\n", h.quantity, h.first + static_cast<double>(k) * h.width, h.counts[k]);
+      if (h.counts[k] > 0.0)
+        fmt::print(out, "{},{:.10g},{}\n", h.quantity, h.first + static_cast<double>(k) * h.width, h.counts[k]);
 }
 
 void write_particles(std::ostream& out, const PathResult& path, const Mixture& model) {
@@ -165,17 +173,18 @@ void write_particles(std::ostream& out, const PathResult& path, const Mixture& m
                path.particle_lengths[j], path.particle_displacements[j]);
 }
 
-void write_files(OutputFolder& folder, const std::vector<PathResult>& paths, const PathMethod& method, const Mixture& model) {
+void write_files(OutputFolder& folder, const std::vector<PathResult>& paths, const PathRunOptions& options, const Mixture& model) {
   folder.write("paths.csv", [&](std::ostream& out) {
     fmt::print(out,
-               "path,outcome,length,distance,ratio_squared,participation_ratio,direct_steps,{}_steps,evaluations,seconds,"
-               "landscape_energy,largest_violation,reversed\n",
-               method.word);
+               "path,outcome,length,distance,ratio_squared,participation_ratio,direct_steps,{0}_steps,direct_length,{0}_length,"
+               "evaluations,seconds,landscape_energy,largest_violation,reversed\n",
+               options.method->word);
     for (std::size_t k = 0; k < paths.size(); ++k) {
       const PathResult& p = paths[k];
-      fmt::print(out, "{},{},{},{},{},{},{},{},{},{},{},{},{}\n", k + 1, to_string(p.outcome), p.length, p.distance,
+      fmt::print(out, "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", k + 1, to_string(p.outcome), p.length, p.distance,
                  p.ratio_squared(), p.participation_number / static_cast<double>(p.frames.front().size()), p.direct_steps,
-                 p.detour_steps, p.evaluations, p.seconds, p.landscape_energy, p.largest_violation, p.reversed ? 1 : 0);
+                 p.detour_steps, p.direct_length, p.detour_length, p.evaluations, p.seconds, p.landscape_energy,
+                 p.largest_violation, p.reversed ? 1 : 0);
     }
   });
   for (std::size_t k = 0; k < paths.size(); ++k) {
@@ -183,7 +192,7 @@ void write_files(OutputFolder& folder, const std::vector<PathResult>& paths, con
     folder.write(fmt::format("path-{:04}.extxyz", k + 1), [&](std::ostream& out) {
       for (const Configuration& frame : p.frames) write_frame(out, frame, model, {});
     });
-    folder.write(fmt::format("path-{:04}-trace.csv", k + 1), [&](std::ostream& out) { write_trace(out, p, method); });
+    folder.write(fmt::format("path-{:04}-trace.csv", k + 1), [&](std::ostream& out) { write_trace(out, p, options); });
     folder.write(fmt::format("path-{:04}-steps.csv", k + 1), [&](std::ostream& out) { write_histograms(out, p); });
     folder.write(fmt::format("path-{:04}-particles.csv", k + 1), [&](std::ostream& out) { write_particles(out, p, model); });
   }
@@ -259,10 +268,10 @@ void add_system(Json& json, const PathState& state, const AnyModel& model, const
 
 // Resolves and checks everything the run needs, before there is a folder.
 PathInput prepare(PathState& state, Options& options, const AnyModel& model, const PathRunOptions& path_options, Isa isa) {
-  options.settle(state.kinds(model, *path_options.method));
+  options.settle(state.kinds(model, path_options));
   path_options.check(model);
   state.method = path_options.method->word;
-  if (path_options.method->direct_step) state.step = path_options.step_length(model);
+  if (path_options.has_step_length()) state.step = path_options.step_length(model);
   const bool makes_pairs = state.pair_files.empty();
   if (makes_pairs) state.setup.settle(model);
   PathInput input = read_input(state, model, isa);
@@ -293,7 +302,7 @@ Json run_path(PathState& state, Options& options, int& status) {
   const bool all_reached = add_paths(result, paths, *path_options.method, mixture_of(model)) && ends.all;
   add_system(result, state, model, ends.pairs, isa);
   status = all_reached ? done : goal_not_reached;
-  if (folder.exists()) write_files(folder, paths, *path_options.method, mixture_of(model));
+  if (folder.exists()) write_files(folder, paths, path_options, mixture_of(model));
   write_result(folder, "path", options.resolved(), result);
   if (state.plot) draw_plots(folder.path(), status);
   return result;
@@ -312,6 +321,9 @@ Subcommand add_path(CLI::App& app) {
                fmt::format("{}; {} for hard spheres [{}, {}]", path_method_words(false, " or "), path_method_words(true, " or "),
                            default_path_method(false).word, default_path_method(true).word));
   options->add_synonym_of_default("--faithful", "steps exactly as published (the default)");
+  options
+      ->add_flag("--adaptive", state->adaptive, "steps as long as an estimate of their error allows: the same path in fewer steps")
+      .excludes("--faithful");
   options
       ->add("--step", state->step, "length of a direct step in 3N space [sigma] [0.001; hard spheres 0.01; see FORMATS.md, Units]")
       .only_for({direct_steps_of_a_length});

@@ -78,7 +78,7 @@ TEST(PathStatistics, HistogramsCountStepsAndNotTheHop) {
   walk.step(statistics, {0.0, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
   walk.hop(statistics, even);
   // The values of n are 1, 625/337 = 1.85 and 3, in the bins up to 1, up to 2 and up to 3.
-  EXPECT_EQ(statistics.participation_histogram(), (std::vector<std::uint64_t>{1, 1, 1}));
+  EXPECT_EQ(statistics.participation_histogram(), (std::vector<double>{1, 1, 1}));
 }
 
 TEST(PathStatistics, TheAlphaTwoOfAStepIsThatOfItsDisplacements) {
@@ -88,7 +88,7 @@ TEST(PathStatistics, TheAlphaTwoOfAStepIsThatOfItsDisplacements) {
   walk.step(statistics, {0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0});
   walk.step(statistics, {1.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0});
   // 1.8/n - 1 for n = 625/337, 2 and 25/17 is -0.03, -0.1 and 0.22; the bins have width 0.2 and start at -1.
-  std::vector<std::uint64_t> expected(PathStatistics::alpha2_bins, 0);
+  std::vector<double> expected(PathStatistics::alpha2_bins, 0);
   expected[4] = 2;
   expected[6] = 1;
   EXPECT_EQ(statistics.alpha2_histogram(), expected);

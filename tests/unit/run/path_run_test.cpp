@@ -66,6 +66,7 @@ void expect_same_bits(const PathResult& a, const PathResult& b) {
   EXPECT_EQ(a.detour_steps, b.detour_steps);
   EXPECT_EQ(a.evaluations, b.evaluations);
   EXPECT_EQ(a.corrections, b.corrections);
+  EXPECT_EQ(a.detour_length, b.detour_length);
   EXPECT_EQ(a.largest_violation, b.largest_violation);
   EXPECT_EQ(a.particle_lengths, b.particle_lengths);
   ASSERT_EQ(a.frames.size(), b.frames.size());
@@ -170,9 +171,9 @@ TEST(PathRun, CountsEveryStepInItsHistograms) {
   const auto counted = [&](const std::string& quantity) {
     for (const StepHistogram& histogram : path.histograms)
       if (histogram.quantity == quantity) {
-        std::uint64_t sum = 0;
-        for (const std::uint64_t count : histogram.counts) sum += count;
-        return sum;
+        double sum = 0.0;
+        for (const double count : histogram.counts) sum += count;
+        return static_cast<std::uint64_t>(sum);
       }
     ADD_FAILURE() << quantity;
     return std::uint64_t{0};
