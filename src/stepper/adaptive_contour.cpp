@@ -10,6 +10,8 @@ namespace lanescape {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+// Of the displacement before; 1/3 is that of the second backward differentiation formula, extrapolated.
+constexpr double momentum = 1.0 / 3.0;
 constexpr std::uint64_t max_returns = 8;  // along the gradient, of one step
 
 }  // namespace
@@ -24,20 +26,25 @@ AdaptiveContourStepper::AdaptiveContourStepper(SoftLandscape& landscape, double 
       corrections_(16, 0),
       gradient_(landscape.dimension(), 0.0),
       trial_gradient_(gradient_),
-      along_(gradient_),
-      trial_along_(gradient_),
-      before_(gradient_),
+      tangent_(gradient_),
+      trial_tangent_(gradient_),
+      tangent_before_(gradient_),
+      moved_(gradient_),
+      move_(gradient_),
       chord_(gradient_),
-      scratch_(gradient_) {}
+      scratch_(gradient_),
+      zero_(gradient_) {}
 
 // Where the goal lies downhill the flow leaves the contour: P is 1 there.
 AdaptiveContourStepper::Flow AdaptiveContourStepper::flow(const AlignedArray& to_goal, const AlignedArray& gradient,
-                                                          AlignedArray& along) const {
+                                                          AlignedArray& tangent) const {
   const VectorAlgebra& algebra = landscape_->algebra();
   const double square = algebra.dot(gradient, gradient);
   const double rise = std::max(0.0, algebra.dot(gradient, to_goal));
-  algebra.axpy(along, to_goal, square > 0.0 ? -rise / square : 0.0, gradient);
-  return {std::sqrt(square), algebra.norm(along)};
+  algebra.axpy(tangent, to_goal, square > 0.0 ? -rise / square : 0.0, gradient);
+  const double along = algebra.norm(tangent);
+  algebra.axpy(tangent, zero_, 1.0 / along, tangent);
+  return {std::sqrt(square), along};
 }
 
 double AdaptiveContourStepper::evaluate(const AlignedArray& position) {
@@ -113,18 +120,18 @@ double AdaptiveContourStepper::try_straight(const PathPoint& at, double length, 
 }
 
 bool AdaptiveContourStepper::follow_contour(const PathPoint& at, AlignedArray& next) {
-  const Flow here = flow(at.to_goal, gradient_, along_);
+  const Flow here = flow(at.to_goal, gradient_, tangent_);
   if (!(here.steepness > 0.0)) {
     failure_ = "the direct step is forbidden and the potential is flat";
     return false;
   }
-  if (!(here.length > 1e-12 * at.distance)) {
+  if (!(here.along > 1e-12 * at.distance)) {
     failure_ = "the direction to the goal is parallel to the gradient";
     return false;
   }
   double length = contour_step_;
   while (length > options_.shortest_step * options_.unit) {
-    const double shorter = try_contour(at, here, length, next);
+    const double shorter = try_contour(at, here.steepness, length, next);
     if (shorter == 0.0) return true;
     length = shorter;
   }
@@ -132,27 +139,36 @@ bool AdaptiveContourStepper::follow_contour(const PathPoint& at, AlignedArray& n
   return false;
 }
 
-double AdaptiveContourStepper::try_contour(const PathPoint& at, const Flow& here, double length, AlignedArray& next) {
+double AdaptiveContourStepper::try_contour(const PathPoint& at, double steepness, double length, AlignedArray& next) {
   const VectorAlgebra& algebra = landscape_->algebra();
-  const double extra = length_before_ > 0.0 ? 0.5 * length / length_before_ : 0.0;
-  const double lift = std::clamp((level(here.steepness) - energy_) / here.steepness, -length, 0.1 * length);
-  algebra.combine(next, at.position, length * (1.0 + extra) / here.length, along_, lift / here.steepness, gradient_);
-  if (extra > 0.0) algebra.axpy(next, next, -length * extra / before_norm_, before_);
+  predict(length);
+  const double lift = std::clamp((level(steepness) - energy_) / steepness, -length, 0.1 * length);
+  algebra.combine(next, at.position, 1.0, move_, lift / steepness, gradient_);
   evaluate(next);
   const std::optional<std::uint64_t> returns = return_to_allowed(next, length);
   if (!returns) return 0.5 * length;
   algebra.difference(chord_, next, at.position);
-  const double ratio = options_.tolerance / relative_error(at, here, length);
-  const double factor = std::clamp(0.9 * (extra > 0.0 ? std::sqrt(ratio) : ratio), 0.2, 2.0);
+  const double ratio = options_.tolerance / relative_error(at, length);
+  const double factor = std::clamp(0.9 * (length_before_ > 0.0 ? std::sqrt(ratio) : ratio), 0.2, 2.0);
   const double fine = options_.fine_step * options_.unit;
   if (!(ratio >= 1.0) && length > fine) return std::max(std::min(factor, 0.8) * length, fine);
-  if (!segment_is_allowed(at, here.steepness)) return 0.5 * length;
-  before_.swap(along_);
-  before_norm_ = here.length;
+  if (!segment_is_allowed(at, steepness)) return 0.5 * length;
+  tangent_before_.swap(tangent_);
+  moved_.swap(move_);
   length_before_ = length;
-  contour_step_ = std::min(std::max(factor * length, fine), options_.longest_step * options_.unit);
+  contour_step_ = std::clamp(factor * length, fine, options_.longest_step * options_.unit);
   ++corrections_[std::min<std::size_t>(*returns, corrections_.size() - 1)];
   return 0.0;
+}
+
+// The displacement of a step in move_, without its way back to the level: after a direct step by Euler's method, else `momentum`
+// times the displacement before and what makes it of second order for any ratio of the two lengths.
+void AdaptiveContourStepper::predict(double length) {
+  const VectorAlgebra& algebra = landscape_->algebra();
+  if (!(length_before_ > 0.0)) return algebra.axpy(move_, zero_, length, tangent_);
+  const double growth = length / length_before_, old = 0.5 * (growth + momentum);
+  algebra.combine(move_, zero_, momentum * growth, moved_, -old * length, tangent_before_);
+  algebra.axpy(move_, move_, (1.0 - momentum + old) * length, tangent_);
 }
 
 // Newton's method along the gradient, where the trial lies above E_L. Returns the number of its steps, or nothing if the trial is
@@ -169,17 +185,18 @@ std::optional<std::uint64_t> AdaptiveContourStepper::return_to_allowed(AlignedAr
   return std::nullopt;
 }
 
-// Of the trial, R + chord_: the local error of its place, from how the direction there differs from the extrapolated one.
-double AdaptiveContourStepper::relative_error(const PathPoint& at, const Flow& here, double length) {
+// Of the trial, R + chord_: the error of its place over the length of the step, from how the direction there differs from the
+// extrapolated one.
+double AdaptiveContourStepper::relative_error(const PathPoint& at, double length) {
   const VectorAlgebra& algebra = landscape_->algebra();
   algebra.axpy(scratch_, at.to_goal, -1.0, chord_);
-  const Flow there = flow(scratch_, trial_gradient_, trial_along_);
-  const double extra = length_before_ > 0.0 ? length / length_before_ : 0.0;
-  algebra.axpy(scratch_, trial_along_, -there.length * (1.0 + extra) / here.length, along_);
-  if (extra > 0.0) algebra.axpy(scratch_, scratch_, there.length * extra / before_norm_, before_);
-  const double turn = algebra.norm(scratch_) / there.length;
+  flow(scratch_, trial_gradient_, trial_tangent_);
+  const bool second_order = length_before_ > 0.0;
+  const double growth = second_order ? length / length_before_ : 0.0;
+  algebra.combine(scratch_, trial_tangent_, -1.0 - growth, tangent_, growth, tangent_before_);
+  const double turn = algebra.norm(scratch_);
   if (!std::isfinite(turn)) return infinity;
-  return std::max(1e-12, (extra > 0.0 ? 5.0 / 12.0 : 0.5) * turn);
+  return std::max(1e-12, (second_order ? (5.0 + momentum) / (12.0 * (1.0 - momentum)) : 0.5) * turn);
 }
 
 // Accepts the trial, R + chord_, if V stays below E_L on the way there.
@@ -210,8 +227,8 @@ void AdaptiveContourStepper::exchange(Archive& archive, const AlignedArray& posi
   archive.field("contour_step", contour_step_);
   archive.field("goal_tried", goal_tried_);
   archive.field("length_before", length_before_);
-  archive.field("before_norm", before_norm_);
-  archive.field("before", before_);
+  archive.field("tangent_before", tangent_before_);
+  archive.field("moved", moved_);
   archive.field("evaluations", evaluations_);
   archive.field("corrections", corrections_);
   landscape_->exchange(archive);
