@@ -17,7 +17,7 @@ namespace {
 class Walk {
  public:
   Walk() : layout_({0, 0, 0}, 1), algebra_(kernel_table(choose_isa("auto"))), at_(layout_.dimension(), 0.0) {}
-  PathStatistics statistics() const { return {layout_.slots(), layout_.size()}; }
+  PathStatistics statistics(Stepping stepping = Stepping::faithful) const { return {layout_.slots(), layout_.size(), stepping}; }
   void step(PathStatistics& statistics, const std::vector<double>& by) { statistics.add_step(algebra_, at_, move(by)); }
   void hop(PathStatistics& statistics, const std::vector<double>& by) { statistics.add_hop(algebra_, at_, move(by)); }
   std::size_t slot(std::size_t particle) const { return layout_.slot_of(particle); }
@@ -92,6 +92,17 @@ TEST(PathStatistics, TheAlphaTwoOfAStepIsThatOfItsDisplacements) {
   expected[4] = 2;
   expected[6] = 1;
   EXPECT_EQ(statistics.alpha2_histogram(), expected);
+}
+
+TEST(PathStatistics, AdaptiveStepsCountWithTheirLength) {
+  Walk walk;
+  PathStatistics statistics = walk.statistics(Stepping::adaptive);
+  walk.step(statistics, uneven);
+  walk.step(statistics, even);
+  walk.step(statistics, {0.0, 0.25, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
+  walk.step(statistics, {0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
+  walk.hop(statistics, even);
+  EXPECT_EQ(statistics.participation_histogram(), (std::vector<double>{0.75, 5.0, std::sqrt(3.0)}));
 }
 
 TEST(PathStatistics, AHopOfNoLengthChangesNothing) {
