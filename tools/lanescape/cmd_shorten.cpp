@@ -37,8 +37,8 @@ struct ShortenState {
   ShortenOptions run_options(const AnyModel& model) const {
     return {&shorten_method(method), path.run_options(model, common.threads, system.resolve_precision()), starts, common.seed};
   }
-  RunKinds kinds(const AnyModel& model, const PathMethod& of_method) const {
-    return joined({system.kinds(model, false), path.kinds(of_method), {common.folder_kind()}});
+  RunKinds kinds(const AnyModel& model, const PathRunOptions& search) const {
+    return joined({system.kinds(model, false), path.kinds(search), {common.folder_kind()}});
   }
 };
 
@@ -127,7 +127,7 @@ Json run_shortening(ShortenState& state, Options& options, int& status) {
   const AnyModel model = state.system.resolve();
   const ShortenOptions shorten_options = state.run_options(model);
   const PathMethod& path_method = *shorten_options.search.method;
-  options.settle(state.kinds(model, path_method));
+  options.settle(state.kinds(model, shorten_options.search));
   shorten_options.check(model);
   state.path.settle(shorten_options.search, model);
   const ShortenInput input = read_input(state, model, shorten_options.search, isa);
