@@ -20,13 +20,15 @@ class SegmentEnergies {
   SegmentEnergies(SoftLandscape& landscape, const Polyline& nodes, std::size_t samples)
       : landscape_(&landscape), nodes_(&nodes), energies_(samples + 2), chord_(nodes.front().size(), 0.0), position_(chord_) {}
 
-  // The largest V on segment k, between ends of known V.
+  // The largest V on segment k, between ends of known V. Throws Error(bad_input) where V is not finite.
   double largest(std::size_t k, double begin, double end) {
     landscape_->algebra().difference(chord_, (*nodes_)[k + 1], (*nodes_)[k]);
     const std::size_t last = energies_.size() - 1;
     energies_.front() = begin;
     energies_.back() = end;
     for (std::size_t s = 1; s < last; ++s) energies_[s] = energy_at(k, static_cast<double>(s) / static_cast<double>(last));
+    if (!std::all_of(energies_.begin(), energies_.end(), [](double v) { return std::isfinite(v); }))
+      throw_bad_input(fmt::format("the energy between nodes {} and {} of the path is not finite: particles meet", k, k + 1));
     const auto highest = std::max_element(energies_.begin(), energies_.end());
     const auto s = std::clamp<std::size_t>(static_cast<std::size_t>(highest - energies_.begin()), 1, last - 1);
     const double vertex = offset_of_vertex(s);

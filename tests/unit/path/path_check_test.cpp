@@ -84,6 +84,20 @@ TEST_P(PathCheckOf, MultipliersAreTheCurvatureTimesTheSpacingOnTheArcAndZeroOffI
   }
 }
 
+// The multipliers of a constrained minimum are its derivative by the constraints: the length by the diameter, or by E_L.
+TEST_P(PathCheckOf, MultipliersAddUpToTheChangeOfTheShortestLengthWithTheBoundary) {
+  for (const TwoSpheres& example : examples) {
+    TwoSpheres larger = example, smaller = example;
+    larger.s += 1e-5;
+    smaller.s -= 1e-5;
+    const double by_diameter = (larger.length() - smaller.length()) / 2e-5 / std::sqrt(2.0);
+    const PathCheck found = check(pair_.geodesic(example, 2001));
+    double sum = 0.0;
+    for (const double lambda : found.multipliers) sum += lambda;
+    EXPECT_NEAR(sum / std::sqrt(2.0), by_diameter, 1e-3);  // |grad gap| is sqrt(2)
+  }
+}
+
 TEST_P(PathCheckOf, AGreedySlideIsNotStationary) {
   const TwoSpheres& example = examples[0];
   const PathCheck found =
