@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
 #include <cmath>
 #include <exception>
 #include <utility>
@@ -10,41 +9,10 @@
 #include "core/error.hpp"
 #include "core/option_checks.hpp"
 #include "run/path_search.hpp"
+#include "run/shared_progress.hpp"
 
 namespace lanescape {
 namespace {
-
-// The progress of all paths together, from that of each.
-class SharedProgress {
- public:
-  SharedProgress(RunMonitor& monitor, std::size_t paths) : monitor_(&monitor), covered_(paths) {}
-
-  void report(std::size_t path, double part) {
-    covered_[path] = part;
-    double sum = 0.0;
-    for (const auto& c : covered_) sum += c;
-    monitor_->progress("paths", sum, static_cast<double>(covered_.size()));
-  }
-  bool stop_requested() const { return monitor_->stop_requested(); }
-
- private:
-  RunMonitor* monitor_;
-  std::vector<std::atomic<double>> covered_;  // of the way, 0 ... 1 per path
-};
-
-// What one search reports: a share of one path, from `offset` on.
-class SearchMonitor final : public RunMonitor {
- public:
-  SearchMonitor(SharedProgress& progress, std::size_t path, double offset, double share)
-      : progress_(&progress), path_(path), offset_(offset), share_(share) {}
-  void progress(std::string_view, double done, double) override { progress_->report(path_, offset_ + share_ * done); }
-  bool stop_requested() const override { return progress_->stop_requested(); }
-
- private:
-  SharedProgress* progress_;
-  std::size_t path_;
-  double offset_, share_;
-};
 
 // The searches of one run.
 struct Searches {
@@ -60,7 +28,7 @@ struct Searches {
     // One level of threads: many paths at once, or the evaluations of one.
     const int threads = pairs.size() == 1 ? options.threads : 1;
     const auto search = options.method->begin({model, pairs[number], prepared[number], options, isa, threads, reversed, {}});
-    SearchMonitor monitor(progress, number, reversed ? 0.5 : 0.0, options.reverse ? 0.5 : 1.0);
+    PartMonitor monitor(progress, number, reversed ? 0.5 : 0.0, options.reverse ? 0.5 : 1.0);
     run_to_end(*search, fmt::format("path-{:04}{}.h5", number + 1, reversed ? "-reverse" : ""), checkpoint, monitor);
     return search->result();
   }
@@ -83,7 +51,7 @@ std::vector<PathResult> run_paths(const AnyModel& model, const std::vector<Confi
   std::vector<PreparedPair> prepared;
   for (std::size_t k = 0; k < pairs.size(); ++k)
     prepared.push_back(prepare_pair(model, pairs[k], fmt::format("pair {}", k + 1), options, isa));
-  SharedProgress progress(monitor, pairs.size());
+  SharedProgress progress(monitor, "paths", pairs.size(), static_cast<double>(pairs.size()));
   const Searches searches{model, pairs, prepared, options, isa, checkpoint, progress};
   std::vector<PathResult> results(pairs.size());
   std::vector<std::exception_ptr> failures(pairs.size());

@@ -100,6 +100,12 @@ std::unique_ptr<SoftLandscape> path_landscape(const SearchSetup& setup) {
                                   setup.prepared.metric);
 }
 
+void add_heterogeneity(PathResult& result, std::size_t species_count) {
+  result.particle_displacements = displacements(result.frames.front(), result.frames.back());
+  result.heterogeneity = heterogeneity_widths(result.particle_lengths, result.particle_displacements,
+                                              result.frames.front().species, species_count);
+}
+
 PathResult shorter_way(PathResult forward, PathResult backward) {
   if (backward.outcome == Outcome::interrupted) return backward;
   const bool keep_backward =
@@ -147,9 +153,7 @@ PathResult PathSearch::result() {
   for (std::size_t j = 0; j < layout.size(); ++j)
     result.particle_lengths.push_back(statistics().particle_lengths()[layout.slot_of(j)]);
   result.frames = frames();
-  result.particle_displacements = displacements(result.frames.front(), result.frames.back());
-  result.heterogeneity = heterogeneity_widths(result.particle_lengths, result.particle_displacements, setup_.pair.start.species,
-                                              layout.blocks().size());
+  add_heterogeneity(result, layout.blocks().size());
   return result;
 }
 

@@ -56,6 +56,9 @@ struct SearchSetup {
 // The landscape of soft particles on which a path runs, in kinematic coordinates.
 std::unique_ptr<SoftLandscape> path_landscape(const SearchSetup& setup);
 
+// Fills in the displacements of the particles and the widths of heterogeneity, from frames and lengths of particles.
+void add_heterogeneity(PathResult& result, std::size_t species_count);
+
 // Of the results from both ends of a pair, the one to keep.
 PathResult shorter_way(PathResult forward, PathResult backward);
 

@@ -2,14 +2,14 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "configuration/model_traits.hpp"
 #include "core/error.hpp"
 #include "end_point_options.hpp"
-#include "interaction/sphere/rounding_overlaps.hpp"
-#include "io/extended_xyz.hpp"
 #include "observables/statistics.hpp"
+#include "pair_files.hpp"
+#include "path_options.hpp"
+#include "path_report.hpp"
 #include "plot.hpp"
 #include "run/path_run.hpp"
 
@@ -17,114 +17,29 @@ namespace lanescape::program {
 namespace {
 
 constexpr Scope made_pairs{"pairs", "runs that make their end points, without --pair"};
-// Options that depend on the method.
-constexpr Scope direct_steps_of_a_length{"direct steps", "contour, escape and avoidance: the steps of away end at contacts"};
-constexpr Scope collision_avoidance{"method", "method avoidance"};
 
 struct PathState {
   CommonOptions common;
   SystemOptions system;
   EndPointSetup setup;
   std::vector<std::string> pair_files;
-  std::optional<std::string> method, fictitious;
+  PathOptions path;
   bool reverse = false, plot = false;
-  std::optional<double> step, avoidance_step, landscape_energy;
-  std::uint64_t max_steps = FinderOptions{}.max_steps, frames = FinderOptions{}.frames;
 
   PathRunOptions run_options(const AnyModel& model) const {
-    PathRunOptions options;
-    options.method = method ? &path_method(*method) : &default_path_method(is_hard(model));
-    check_method(*options.method, model);
-    options.direct_step = step;
-    options.avoidance_step = avoidance_step;
-    if (fictitious) options.fictitious = parse_contact_potential(*fictitious);
-    options.landscape_energy = landscape_energy;
+    PathRunOptions options = path.run_options(model, common.threads, system.resolve_precision());
     options.reverse = reverse;
-    options.finder.max_steps = max_steps;
-    options.finder.frames = frames;
-    options.threads = common.threads;
-    options.precision = system.resolve_precision();
     return options;
   }
 
   RunKinds kinds(const AnyModel& model, const PathMethod& of_method) const {
-    const std::string with = fmt::format("with method {}", of_method.word);
     return joined({{kind_if(pair_files.empty(), made_pairs, "without --pair", "with --pair")},
                    setup.kinds(!pair_files.empty()),
                    system.kinds(model, pair_files.empty() && setup.generates_start()),
-                   {common.folder_kind(), kind_if(of_method.word == std::string_view("avoidance"), collision_avoidance, with, with),
-                    kind_if(of_method.direct_step.has_value(), direct_steps_of_a_length, with, with)}});
+                   path.kinds(of_method),
+                   {common.folder_kind()}});
   }
 };
-
-// Scales the radii of both frames by one factor if the file's rounding makes spheres overlap.
-void scale_radii(ConfigurationPair& pair, double tolerance, const std::string& where) {
-  try {
-    const double factor = std::min(rounding_overlap_factor(pair.start, tolerance), rounding_overlap_factor(pair.finish, tolerance));
-    for (Configuration* end : {&pair.start, &pair.finish})
-      for (double& radius : end->radii) radius *= factor;
-    pair.radius_factor *= factor;
-  } catch (const Error& error) {
-    throw Error(error.code(), fmt::format("{}: {}", where, error.what()));
-  }
-}
-
-ConfigurationPair read_pair(const std::filesystem::path& file, const AnyModel& model, double tolerance) {
-  const bool hard = is_hard(model);
-  ExtendedXyzReader reader(file, mixture_of(model), traits_of(model).sizes);
-  ConfigurationPair pair;
-  pair.start = reader.next()->configuration;
-  std::optional<Frame> second = reader.next();
-  if (!second || reader.another_begins())
-    throw_bad_input(fmt::format("{}: holds {}: a pair of end points is two frames", file.string(),
-                                second ? "more than two frames" : "one frame"));
-  pair.finish = std::move(second->configuration);
-  if (hard) scale_radii(pair, tolerance, file.string());
-  check_end_points(pair, model, file.string());
-  for (std::size_t k = 0; k < pair.start.positions.size(); ++k)
-    pair.distance = std::hypot(pair.distance, pair.finish.positions[k] - pair.start.positions[k]);
-  return pair;
-}
-
-// The factor of scale_radii() when the pair was kept.
-double kept_radius_factor(const std::filesystem::path& file, const AnyModel& model) {
-  const auto info = ExtendedXyzReader(file, mixture_of(model)).next()->info;
-  const auto found = info.find(radius_factor_key);
-  return found == info.end() ? 1.0 : std::stod(found->second);
-}
-
-// The pairs a resumed run was started with: its folder holds a copy of each, with radii scaled already.
-std::vector<ConfigurationPair> read_kept_pairs(const OutputFolder& folder, const AnyModel& model, double tolerance) {
-  std::vector<ConfigurationPair> pairs;
-  for (std::filesystem::path file; std::filesystem::exists(file = folder.path() / pair_file_name(pairs.size()));) {
-    pairs.push_back(read_pair(file, model, tolerance));
-    pairs.back().radius_factor *= kept_radius_factor(file, model);
-  }
-  return pairs;
-}
-
-Json to_json(const PathResult& path, const PathMethod& method, const Mixture& mixture) {
-  const auto particles = static_cast<double>(path.frames.front().size());
-  const bool complete = path.outcome == Outcome::reached;
-  Json json;
-  json["outcome"] = to_string(path.outcome);
-  if (!path.reason.empty()) json["reason"] = path.reason;
-  json["length"] = path.length;
-  json["distance"] = path.distance;
-  json["ratio_squared"] = complete ? Json(path.ratio_squared()) : Json();
-  json["participation_ratio"] = path.participation_number / particles;
-  json["steps"] = {{"direct", path.direct_steps}, {method.word, path.detour_steps}};
-  json["corrections"] = path.corrections;
-  json["evaluations"] = path.evaluations;
-  json["seconds"] = path.seconds;
-  json["landscape_energy"] = method.is_hard ? Json() : Json(path.landscape_energy);
-  json["largest_violation"] = path.largest_violation;
-  for (const StepHistogram& h : path.histograms) json["mean_over_steps"][h.quantity] = h.mean();
-  for (std::size_t s = 0; complete && s < path.heterogeneity.size(); ++s)
-    json["heterogeneity"][mixture.species[s].name] = path.heterogeneity[s];
-  json["reversed"] = path.reversed;
-  return json;
-}
 
 // Mean of (DeltaR/g)^2 over the paths that reached their goal, and its standard error from two paths on.
 void add_mean(Json& json, const std::vector<PathResult>& paths) {
@@ -151,20 +66,6 @@ void write_trace(std::ostream& out, const PathResult& path, const PathMethod& me
   }
 }
 
-void write_histograms(std::ostream& out, const PathResult& path) {
-  out << "quantity,value,steps\n";
-  for (const StepHistogram& h : path.histograms)
-    for (std::size_t k = 0; k < h.counts.size(); ++k)
-      if (h.counts[k] > 0) fmt::print(out, "{},{:.10g},{}\n", h.quantity, h.first + static_cast<double>(k) * h.width, h.counts[k]);
-}
-
-void write_particles(std::ostream& out, const PathResult& path, const Mixture& model) {
-  out << "particle,species,path_length,displacement\n";
-  for (std::size_t j = 0; j < path.particle_lengths.size(); ++j)
-    fmt::print(out, "{},{},{},{}\n", j, model.species[static_cast<std::size_t>(path.frames.front().species[j])].name,
-               path.particle_lengths[j], path.particle_displacements[j]);
-}
-
 void write_files(OutputFolder& folder, const std::vector<PathResult>& paths, const PathMethod& method, const Mixture& model) {
   folder.write("paths.csv", [&](std::ostream& out) {
     fmt::print(out,
@@ -180,12 +81,8 @@ void write_files(OutputFolder& folder, const std::vector<PathResult>& paths, con
   });
   for (std::size_t k = 0; k < paths.size(); ++k) {
     const PathResult& p = paths[k];
-    folder.write(fmt::format("path-{:04}.extxyz", k + 1), [&](std::ostream& out) {
-      for (const Configuration& frame : p.frames) write_frame(out, frame, model, {});
-    });
     folder.write(fmt::format("path-{:04}-trace.csv", k + 1), [&](std::ostream& out) { write_trace(out, p, method); });
-    folder.write(fmt::format("path-{:04}-steps.csv", k + 1), [&](std::ostream& out) { write_histograms(out, p); });
-    folder.write(fmt::format("path-{:04}-particles.csv", k + 1), [&](std::ostream& out) { write_particles(out, p, model); });
+    write_path_files(folder, k, p, model);
   }
 }
 
@@ -208,18 +105,10 @@ PathInput read_input(PathState& state, const AnyModel& model, Isa isa) {
   return input;
 }
 
-void warn_of_wrapped_pairs(const PathState& state, const std::vector<ConfigurationPair>& pairs) {
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    if (looks_wrapped(pairs[k]))
-      say(state.common, fmt::format("{}: warning: both end points lie in one box, and a particle moves by more than half an edge: "
-                                    "they look wrapped, and the distance {} is then wrong; unwrapped positions are needed",
-                                    state.pair_files[k], pairs[k].distance));
-}
-
 // The paths found, in JSON; whether all reached their goal.
 bool add_paths(Json& json, const std::vector<PathResult>& paths, const PathMethod& method, const Mixture& mixture) {
   json["paths"] = Json::array();
-  for (const PathResult& path : paths) json["paths"].push_back(to_json(path, method, mixture));
+  for (const PathResult& path : paths) json["paths"].push_back(path_json(path, method, mixture));
   add_mean(json, paths);
   return std::all_of(paths.begin(), paths.end(), [](const PathResult& path) { return path.outcome == Outcome::reached; });
 }
@@ -260,9 +149,7 @@ void add_system(Json& json, const PathState& state, const AnyModel& model, const
 // Resolves and checks everything the run needs, before there is a folder.
 PathInput prepare(PathState& state, Options& options, const AnyModel& model, const PathRunOptions& path_options, Isa isa) {
   options.settle(state.kinds(model, *path_options.method));
-  path_options.check(model);
-  state.method = path_options.method->word;
-  if (path_options.method->direct_step) state.step = path_options.step_length(model);
+  state.path.settle(path_options, model);
   const bool makes_pairs = state.pair_files.empty();
   if (makes_pairs) state.setup.settle(model);
   PathInput input = read_input(state, model, isa);
@@ -281,7 +168,7 @@ Json run_path(PathState& state, Options& options, int& status) {
   if (state.plot) check_plots();
   OutputFolder folder = open_folder(state.common);
   folder.write_run_file("path", options.resolved());
-  warn_of_wrapped_pairs(state, input.pairs);
+  for (std::size_t k = 0; k < input.pairs.size(); ++k) warn_if_wrapped(state.common, state.pair_files[k], input.pairs[k]);
   Ends ends = take_ends(state, model, std::move(input), path_options.precision, isa, folder);
   Json result;
   if (!ends.json.is_null()) result["endpoints"] = std::move(ends.json);
@@ -308,23 +195,10 @@ Subcommand add_path(CLI::App& app) {
       "--pair", state->pair_files,
       "files with two frames, the end points, unwrapped (with a warning if they look wrapped); without any, pairs are made as by "
       "endpoints");
-  options->add("--method", state->method,
-               fmt::format("{}; {} for hard spheres [{}, {}]", path_method_words(false, " or "), path_method_words(true, " or "),
-                           default_path_method(false).word, default_path_method(true).word));
-  options->add_synonym_of_default("--faithful", "steps exactly as published (the default)");
-  options
-      ->add("--step", state->step, "length of a direct step in 3N space [sigma] [0.001; hard spheres 0.01; see FORMATS.md, Units]")
-      .only_for({direct_steps_of_a_length});
-  options
-      ->add("--avoidance-step", state->avoidance_step, "of each particle that moves in a collision-avoidance step [sigma] [0.0001]")
-      .only_for({collision_avoidance});
-  options->add("--fictitious", state->fictitious, "potential between overlapping spheres: harmonic, linear or cubic [harmonic]")
-      .only_for({collision_avoidance});
-  options->add("--landscape-energy", state->landscape_energy, "E_L [the higher energy of the two end points]")
-      .only_for({soft_models});
+  state->path.add_to(*options, "--method");
   options->add_flag("--reverse", state->reverse, "search from the far end too and keep the shorter path");
-  options->add("--max-steps", state->max_steps, "steps of one path before giving up");
-  options->add("--frames", state->frames, "configurations of each path to write between its ends").only_for({runs_with_a_folder});
+  options->add("--frames", state->path.frames, "configurations of each path to write between its ends")
+      .only_for({runs_with_a_folder});
   options->add_flag("--plot", state->plot, "draw the path and the equilibration (needs --out)").only_for({runs_with_a_folder});
   options->begin_group({made_pairs});
   state->setup.add_to(*options);

@@ -26,9 +26,9 @@ int run(std::vector<std::string> arguments) {
   app.set_version_flag("--version", version());
   app.require_subcommand(1);
   app.get_formatter()->column_width(34);
-  const std::vector<Subcommand> subcommands = {add_info(app),   add_energy(app),    add_overlap(app), add_endpoints(app),
-                                               add_path(app),   add_diffusion(app), add_insert(app),  add_slab(app),
-                                               add_verify(app), add_cases(app),     add_check(app)};
+  const std::vector<Subcommand> subcommands = {add_info(app), add_energy(app),  add_overlap(app),   add_endpoints(app),
+                                               add_path(app), add_shorten(app), add_diffusion(app), add_insert(app),
+                                               add_slab(app), add_verify(app),  add_cases(app),     add_check(app)};
   try {
     arguments = with_run_file(arguments, app);
     // CLI11 takes arguments in reverse.

@@ -88,6 +88,7 @@ Subcommand add_energy(CLI::App& app);
 Subcommand add_overlap(CLI::App& app);
 Subcommand add_endpoints(CLI::App& app);
 Subcommand add_path(CLI::App& app);
+Subcommand add_shorten(CLI::App& app);
 Subcommand add_diffusion(CLI::App& app);
 Subcommand add_insert(CLI::App& app);
 Subcommand add_slab(CLI::App& app);

@@ -1,0 +1,196 @@
+#include "run/shorten_montecarlo.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+#include "configuration/model_traits.hpp"
+#include "core/random.hpp"
+#include "interaction/sphere/hard_sphere_overlap.hpp"
+#include "run/path_pieces.hpp"
+
+namespace lanescape {
+namespace {
+
+// As in the source.
+constexpr std::size_t recorded_configurations = 1000;
+constexpr double largest_move = 0.10, least_displacement = 0.10;  // per axis; |R' - R| in 3N space; in units of length
+constexpr std::uint64_t allowed_failures = 5;
+// Moves of one trial before it counts as failed: a configuration so tight has no R'. Each move uses two draws of random numbers.
+constexpr std::uint32_t most_moves = 1'000'000;
+
+// Whether kinematic coordinates are allowed. Made anew for each trial, so that no list of an earlier one affects any bit.
+using AllowedRegion = std::function<bool(const AlignedArray& q)>;
+
+AllowedRegion allowed_region(const SearchSetup& setup) {
+  if (setup.options.method->is_hard) {
+    const auto spheres = std::make_shared<HardSphereOverlap>(setup.pair.start.box, setup.prepared.layout, setup.pair.start.radii,
+                                                             kernel_table(setup.isa));
+    return [spheres, metric = setup.prepared.metric](AlignedArray q) {
+      metric.to_positions(q);
+      return !spheres->any_overlap(q);
+    };
+  }
+  const std::shared_ptr<SoftLandscape> landscape = path_landscape(setup);
+  return [landscape, energy = setup.prepared.landscape_energy](const AlignedArray& q) { return landscape->energy(q) <= energy; };
+}
+
+class MonteCarloShortening final : public ShortenWork {
+ public:
+  explicit MonteCarloShortening(const ShortenSetup& setup)
+      : setup_(setup.search),
+        random_(setup.seed, RandomStream::shortening),
+        start_(setup.start),
+        algebra_(kernel_table(setup_.isa)),
+        unit_(length_unit(setup_.model)),
+        path_(setup.initial) {
+    record();
+  }
+
+  bool finished() const override { return failures_ >= allowed_failures; }
+  double length() const override { return path_.length; }
+  bool save_due() const override { return !trial_ || trial_->save_due(); }
+  ShortenedPath result() override { return {path_, std::nullopt, trials_}; }
+
+  void advance(RunMonitor& monitor) override {
+    if (!trial_) {
+      begin_trial();
+    } else {
+      SilentMonitor nobody;  // the progress of one trial is none of the whole
+      trial_->advance(nobody);
+      if (trial_->finished()) end_trial();
+    }
+    monitor.progress("trials", static_cast<double>(trials_.size()), 0.0);
+  }
+
+  void exchange(Archive& archive) override {
+    archive.field("failures", failures_);
+    exchange_trials(archive);
+    archive.enter("path");
+    exchange_joined(archive, path_, setup_.pair);
+    archive.leave();
+    archive.field("displaced", displaced_);
+    archive.field("distance_left", distance_left_);
+    if (archive.reading()) {
+      add_heterogeneity(path_, setup_.prepared.layout.blocks().size());
+      trial_ = displaced_.empty() ? nullptr : paths_from_displaced();
+    }
+    if (!trial_) return;
+    archive.enter("trial");
+    trial_->exchange(archive);
+    archive.leave();
+  }
+
+ private:
+  AlignedArray kinematic(const std::vector<double>& positions) const {
+    AlignedArray q = setup_.prepared.layout.to_slots(positions);
+    setup_.prepared.metric.to_kinematic(q);
+    return q;
+  }
+
+  // Of the frames of `path_`, keeps those equally spaced in the distance to the end, and the ends.
+  void record() {
+    PathRecorder recorder(recorded_configurations, setup_.prepared.distance);
+    std::vector<Configuration> kept = {path_.frames.front()};
+    for (std::size_t k = 1; k + 1 < path_.frames.size(); ++k) {
+      const AlignedArray q = kinematic(path_.frames[k].positions);
+      const std::size_t before = recorder.frames().size();
+      recorder.keep_frame(q, algebra_.distance(q, setup_.prepared.goal));
+      if (recorder.frames().size() > before) kept.push_back(std::move(path_.frames[k]));
+    }
+    kept.push_back(path_.frames.back());
+    path_.frames = std::move(kept);
+  }
+
+  void begin_trial() {
+    const auto inner = static_cast<std::uint32_t>(path_.frames.size() - 2);
+    if (inner == 0) return fail({});
+    const std::uint32_t picked = 1 + random_.below(inner, trials_.size(), start_, 0);
+    const std::vector<double>& positions = path_.frames[picked].positions;
+    distance_left_ = algebra_.distance(kinematic(positions), setup_.prepared.goal);
+    displaced_ = displace(positions);
+    if (displaced_.empty()) return fail({});
+    trial_ = paths_from_displaced();
+  }
+
+  // Moves single particles until the configuration is far enough from where it was; empty if it never is.
+  std::vector<double> displace(const std::vector<double>& from) const {
+    const AllowedRegion allowed = allowed_region(setup_);
+    const AlignedArray origin = kinematic(from);
+    std::vector<double> now = from;
+    const auto particles = static_cast<std::uint32_t>(from.size() / 3);
+    for (std::uint32_t move = 0; move < most_moves; ++move) {
+      const std::size_t particle = random_.below(particles, trials_.size(), start_, 2 * move + 1);
+      const Point by = random_.uniform_point(trials_.size(), start_, 2 * move + 2);
+      std::vector<double> next = now;
+      for (std::size_t axis = 0; axis < 3; ++axis) next[3 * particle + axis] += unit_ * largest_move * (2.0 * by[axis] - 1.0);
+      const AlignedArray q = kinematic(next);
+      if (!allowed(q)) continue;
+      now = std::move(next);
+      if (algebra_.distance(q, origin) > unit_ * least_displacement) return now;
+    }
+    return {};
+  }
+
+  std::unique_ptr<PathPieces> paths_from_displaced() const {
+    return std::make_unique<PathPieces>(setup_,
+                                        std::vector<PathPieces::Piece>{{displaced_, setup_.pair.start.positions, true},
+                                                                       {displaced_, setup_.pair.finish.positions, false}},
+                                        2 * recorded_configurations);
+  }
+
+  void end_trial() {
+    PathResult found = trial_->joined();
+    trial_.reset();
+    displaced_.clear();
+    if (found.outcome != Outcome::reached) return fail({});
+    if (!(found.length < path_.length)) return fail(found.length);
+    trials_.push_back({distance_left_, found.length, true});
+    failures_ = 0;
+    path_ = std::move(found);
+    record();
+  }
+
+  void fail(std::optional<double> length) {
+    trials_.push_back({distance_left_, length, false});
+    ++failures_;
+  }
+
+  void exchange_trials(Archive& archive) {
+    std::vector<double> distances, lengths;
+    std::vector<std::uint64_t> kinds;  // 0 no path, 1 a longer one, 2 a shorter one
+    for (const ShortenTrial& trial : trials_) {
+      distances.push_back(trial.distance_left);
+      lengths.push_back(trial.length.value_or(0.0));
+      kinds.push_back(trial.accepted ? 2 : trial.length ? 1 : 0);
+    }
+    archive.field("trial_distances", distances);
+    archive.field("trial_lengths", lengths);
+    archive.field("trial_kinds", kinds);
+    if (!archive.reading()) return;
+    trials_.clear();
+    for (std::size_t k = 0; k < kinds.size(); ++k)
+      trials_.push_back({distances[k], kinds[k] > 0 ? std::optional(lengths[k]) : std::nullopt, kinds[k] == 2});
+  }
+
+  SearchSetup setup_;
+  CounterRandom random_;
+  std::uint32_t start_;
+  VectorAlgebra algebra_;
+  double unit_;
+  PathResult path_;  // the shortest by now
+  std::uint64_t failures_ = 0;
+  std::vector<ShortenTrial> trials_;
+  // The trial under way.
+  double distance_left_ = 0.0;
+  std::vector<double> displaced_;
+  std::unique_ptr<PathPieces> trial_;
+};
+
+}  // namespace
+
+std::unique_ptr<ShortenWork> begin_montecarlo_shortening(const ShortenSetup& setup) {
+  return std::make_unique<MonteCarloShortening>(setup);
+}
+
+}  // namespace lanescape

@@ -1,0 +1,183 @@
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "configuration/model_traits.hpp"
+#include "core/error.hpp"
+#include "end_point_options.hpp"
+#include "io/extended_xyz.hpp"
+#include "pair_files.hpp"
+#include "path_options.hpp"
+#include "path_report.hpp"
+#include "run/given_path.hpp"
+#include "run/shorten_run.hpp"
+
+namespace lanescape::program {
+namespace {
+
+// The path that the run starts from, kept so that it can be resumed.
+constexpr const char* kept_path = "given-path.extxyz";
+
+struct ShortenState {
+  CommonOptions common;
+  SystemOptions system;
+  std::string pair_file, path_file;
+  std::string method = default_shorten_method().word;
+  PathOptions path;
+  std::uint64_t starts = 1;
+  double overlap_tolerance = default_overlap_tolerance;
+
+  ShortenOptions run_options(const AnyModel& model) const {
+    return {&shorten_method(method), path.run_options(model, common.threads, system.resolve_precision()), starts, common.seed};
+  }
+  RunKinds kinds(const AnyModel& model, const PathMethod& of_method) const {
+    return joined({system.kinds(model, false), path.kinds(of_method), {common.folder_kind()}});
+  }
+};
+
+struct ShortenInput {
+  ConfigurationPair pair;
+  std::vector<Configuration> nodes;  // of a given path
+};
+
+std::vector<Configuration> read_path(const std::filesystem::path& file, const AnyModel& model, const ConfigurationPair& pair,
+                                     const PathRunOptions& options, Isa isa) {
+  std::vector<Configuration> nodes;
+  for (Frame& frame : read_frames(file, mixture_of(model), traits_of(model).sizes)) nodes.push_back(std::move(frame.configuration));
+  return fit_path(std::move(nodes), model, pair, file.string(), options, isa);
+}
+
+// From the files named by the options; of an interrupted run, from its folder.
+ShortenInput read_input(const ShortenState& state, const AnyModel& model, const PathRunOptions& options, Isa isa) {
+  const std::filesystem::path resumed = state.common.resume;
+  ShortenInput input;
+  input.pair = resumed.empty() ? read_pair(state.pair_file, model, state.overlap_tolerance)
+                               : read_kept_pair(resumed / pair_file_name(0), model, state.overlap_tolerance);
+  if (!state.path_file.empty())
+    input.nodes =
+        read_path(resumed.empty() ? std::filesystem::path(state.path_file) : resumed / kept_path, model, input.pair, options, isa);
+  return input;
+}
+
+void keep_input(OutputFolder& folder, const ShortenInput& input, const Mixture& mixture) {
+  write_pair(folder, 0, input.pair, mixture);
+  if (input.nodes.empty()) return;
+  folder.write(kept_path, [&](std::ostream& out) {
+    for (const Configuration& node : input.nodes) write_frame(out, node, mixture, {});
+  });
+}
+
+Json to_json(const ShortenResult& result, const PathMethod& method, const Mixture& mixture) {
+  const ShortenedPath& shortest = result.shortest;
+  Json json;
+  json["outcome"] = to_string(result.outcome);
+  if (!result.reason.empty()) json["reason"] = result.reason;
+  json["length_before"] = result.length_before;
+  const bool found = !shortest.path.frames.empty();
+  if (found) {
+    Json path = path_json(shortest.path, method, mixture);
+    for (const char* other : {"outcome", "seconds", "reversed"}) path.erase(other);
+    json.update(path);
+  } else {
+    for (const char* key : {"length", "ratio_squared", "largest_violation"}) json[key] = nullptr;
+  }
+  json["kuhn_tucker_residual"] = shortest.kuhn_tucker_residual ? Json(*shortest.kuhn_tucker_residual) : Json();
+  json["nodes"] = shortest.path.frames.size();
+  json["trials"] = shortest.trials.size();
+  json["accepted"] =
+      std::count_if(shortest.trials.begin(), shortest.trials.end(), [](const ShortenTrial& t) { return t.accepted; });
+  json["start_lengths"] = result.start_lengths;
+  json["seconds"] = result.seconds;
+  return json;
+}
+
+void write_trials(std::ostream& out, const std::vector<ShortenTrial>& trials) {
+  out << "trial,distance_to_goal,length,accepted\n";
+  for (std::size_t k = 0; k < trials.size(); ++k)
+    fmt::print(out, "{},{},{},{}\n", k + 1, trials[k].distance_left, trials[k].length ? fmt::format("{}", *trials[k].length) : "",
+               trials[k].accepted ? 1 : 0);
+}
+
+// Of the nodes, about that many between the ends, equally spaced in their number.
+std::vector<Configuration> some_of(const std::vector<Configuration>& nodes, std::size_t frames) {
+  const std::size_t last = nodes.size() - 1, parts = std::min(frames + 1, last);
+  std::vector<Configuration> chosen;
+  for (std::size_t k = 0; k <= parts; ++k) chosen.push_back(nodes[k * last / parts]);
+  return chosen;
+}
+
+void write_files(OutputFolder& folder, const ShortenResult& result, std::size_t frames, const Mixture& mixture) {
+  if (result.shortest.path.frames.empty()) return;
+  PathResult path = result.shortest.path;
+  path.frames = some_of(path.frames, frames);
+  write_path_files(folder, 0, path, mixture);
+  folder.write("path-0001-trials.csv", [&](std::ostream& out) { write_trials(out, result.shortest.trials); });
+}
+
+void add_system(Json& json, const ShortenState& state, const AnyModel& model, const ConfigurationPair& pair, Isa isa) {
+  json["model"] = mixture_of(model).name;
+  if (is_hard(model))
+    json["radius_factor"] = pair.radius_factor;
+  else
+    json["images"] = to_string(traits_of(model).images);
+  json["isa"] = to_string(isa);
+  if (traits_of(model).has_precision) json["precision"] = to_string(state.system.resolve_precision());
+}
+
+Json run_shortening(ShortenState& state, Options& options, int& status) {
+  state.common.check();
+  const Isa isa = state.common.resolve_isa();
+  const AnyModel model = state.system.resolve();
+  const ShortenOptions shorten_options = state.run_options(model);
+  const PathMethod& path_method = *shorten_options.search.method;
+  options.settle(state.kinds(model, path_method));
+  shorten_options.check(model);
+  state.path.settle(shorten_options.search, model);
+  const ShortenInput input = read_input(state, model, shorten_options.search, isa);
+  state.system.check_precision_in(model, input.pair.start.box, path_skin);
+
+  OutputFolder folder = open_folder(state.common);
+  folder.write_run_file("shorten", options.resolved());
+  if (state.common.resume.empty()) {
+    warn_if_wrapped(state.common, state.pair_file, input.pair);
+    keep_input(folder, input, mixture_of(model));
+  }
+  TerminalMonitor monitor(state.common.quiet);
+  const ShortenResult shortened = run_shorten(model, input.pair, input.nodes, shorten_options, isa,
+                                              {folder.checkpoints(), !state.common.resume.empty()}, monitor);
+  Json result = to_json(shortened, path_method, mixture_of(model));
+  add_system(result, state, model, input.pair, isa);
+  status = shortened.outcome == Outcome::reached ? done : goal_not_reached;
+  if (folder.exists()) write_files(folder, shortened, state.path.frames, mixture_of(model));
+  write_result(folder, "shorten", options.resolved(), result);
+  return result;
+}
+
+}  // namespace
+
+Subcommand add_shorten(CLI::App& app) {
+  const auto options = std::make_shared<Options>(app, "shorten", "Shorten the path between two end points");
+  const auto state = std::make_shared<ShortenState>();
+  options->add("--pair", state->pair_file, "file with two frames, the end points, unwrapped (with a warning if they look wrapped)")
+      .required();
+  options->add("--path", state->path_file,
+               "file with the frames of a path between them, as path writes it; without it the path method finds one");
+  options->add("--method", state->method, fmt::format("how to shorten: {}", shorten_method_words()));
+  options->add("--starts", state->starts, "runs with other random numbers; the shortest path is kept");
+  state->path.add_to(*options, "--path-method");
+  options->add("--frames", state->path.frames, "configurations of the path to write between its ends")
+      .only_for({runs_with_a_folder});
+  options
+      ->add("--overlap-tolerance", state->overlap_tolerance,
+            "of hard spheres in files, in units of s_ij: up to it radii are scaled")
+      .only_for({hard_spheres});
+  state->system.add_to(*options);
+  state->common.add_to(*options);
+  return {&options->app(), [=](int& status) { return run_shortening(*state, *options, status); }};
+}
+
+}  // namespace lanescape::program

@@ -1,0 +1,60 @@
+#include "path_options.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "configuration/model_traits.hpp"
+
+namespace lanescape::program {
+namespace {
+
+// Options that depend on the method.
+constexpr Scope direct_steps_of_a_length{"direct steps", "contour, escape and avoidance: the steps of away end at contacts"};
+constexpr Scope collision_avoidance{"method", "method avoidance"};
+
+}  // namespace
+
+void PathOptions::add_to(Options& options, const std::string& method_option) {
+  options.add(method_option, method_,
+              fmt::format("{}; {} for hard spheres [{}, {}]", path_method_words(false, " or "), path_method_words(true, " or "),
+                          default_path_method(false).word, default_path_method(true).word));
+  options.add_synonym_of_default("--faithful", "steps exactly as published (the default)");
+  options.add("--step", step_, "length of a direct step in 3N space [sigma] [0.001; hard spheres 0.01; see FORMATS.md, Units]")
+      .only_for({direct_steps_of_a_length});
+  options.add("--avoidance-step", avoidance_step_, "of each particle that moves in a collision-avoidance step [sigma] [0.0001]")
+      .only_for({collision_avoidance});
+  options.add("--fictitious", fictitious_, "potential between overlapping spheres: harmonic, linear or cubic [harmonic]")
+      .only_for({collision_avoidance});
+  options.add("--landscape-energy", landscape_energy_, "E_L [the higher energy of the two end points]").only_for({soft_models});
+  options.add("--max-steps", max_steps_, "steps of one path before giving up");
+}
+
+PathRunOptions PathOptions::run_options(const AnyModel& model, int threads, Precision precision) const {
+  PathRunOptions options;
+  options.method = method_ ? &path_method(*method_) : &default_path_method(is_hard(model));
+  check_method(*options.method, model);
+  options.direct_step = step_;
+  options.avoidance_step = avoidance_step_;
+  if (fictitious_) options.fictitious = parse_contact_potential(*fictitious_);
+  options.landscape_energy = landscape_energy_;
+  options.finder.max_steps = max_steps_;
+  options.finder.frames = frames;
+  options.threads = threads;
+  options.precision = precision;
+  return options;
+}
+
+RunKinds PathOptions::kinds(const PathMethod& method) const {
+  const std::string with = fmt::format("with method {}", method.word);
+  return {kind_if(method.word == std::string_view("avoidance"), collision_avoidance, with, with),
+          kind_if(method.direct_step.has_value(), direct_steps_of_a_length, with, with)};
+}
+
+void PathOptions::settle(const PathRunOptions& options, const AnyModel& model) {
+  options.check(model);
+  method_ = options.method->word;
+  if (options.method->direct_step) step_ = options.step_length(model);
+}
+
+}  // namespace lanescape::program

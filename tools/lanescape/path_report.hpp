@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstddef>
+
+#include "program.hpp"
+#include "run/path_run.hpp"
+
+namespace lanescape::program {
+
+// A path in JSON.
+Json path_json(const PathResult& path, const PathMethod& method, const Mixture& mixture);
+// DIR/path-0001.extxyz, DIR/path-0001-steps.csv and DIR/path-0001-particles.csv of number 0.
+void write_path_files(OutputFolder& folder, std::size_t number, const PathResult& path, const Mixture& mixture);
+
+}  // namespace lanescape::program
