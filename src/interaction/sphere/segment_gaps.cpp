@@ -13,7 +13,7 @@ double closest_fraction(const Point& separation, const Point& move) {
   return squared > 0.0 ? std::clamp(-dot(separation, move) / squared, 0.0, 1.0) : 0.5;
 }
 
-Point at(const Point& separation, const Point& move, double fraction) {
+Point separation_at(const Point& separation, const Point& move, double fraction) {
   Point result;
   for (std::size_t axis = 0; axis < 3; ++axis) result[axis] = separation[axis] + fraction * move[axis];
   return result;
@@ -66,7 +66,7 @@ void SegmentGaps::add_images(const kernels::SpherePair& pair, const AlignedArray
       for (std::int32_t nz = z.first; nz <= z.last; ++nz) {
         const Point separation{start[0] + nx * edges[0], start[1] + ny * edges[1], start[2] + nz * edges[2]};
         const double fraction = closest_fraction(separation, move);
-        const Point nearest = at(separation, move, fraction);
+        const Point nearest = separation_at(separation, move, fraction);
         const double gap = std::sqrt(dot(nearest, nearest)) - contact;
         if (gap < reach) approaches_.push_back({pair.first, pair.second, {nx, ny, nz}, fraction, gap, nearest});
       }
