@@ -55,6 +55,12 @@ class Plot(PlotTest):
         self.write_run([path_summary(), path_summary("step_limit", None)])
         self.assert_draws("path-0001.png", "path-0002.png")
 
+    def test_trials_of_a_shortening_give_a_figure(self):
+        (self.folder / "result.json").write_text(json.dumps({"length_before": 20.0, "length": 18.0, "model": "kob-andersen"}))
+        write_table(self.folder / "path-0001-trials.csv", "trial,distance_to_goal,length,accepted",
+                    ["1,5,21,0", "2,4,nan,0", "3,8,18,1", "4,2,19,0"])
+        self.assert_draws("shortening.png")
+
     def test_equal_ratios_can_be_drawn(self):
         self.write_run([path_summary(), path_summary()], rows=5)
         self.assert_draws("path-0001.png", "path-0002.png", "paths.png")

@@ -131,19 +131,12 @@ Ends take_ends(const PathState& state, const AnyModel& model, PathInput&& input,
   return {std::move(input.pairs), Json(), true};
 }
 
-// Adds the model, its images or radii, instruction set and precision.
-void add_system(Json& json, const PathState& state, const AnyModel& model, const std::vector<ConfigurationPair>& pairs, Isa isa) {
-  json["model"] = mixture_of(model).name;
-  if (!is_hard(model))
-    json["images"] = to_string(traits_of(model).images);
-  else if (state.setup.radius_factor())
-    json["radius_factor"] = *state.setup.radius_factor();
-  else if (!state.pair_files.empty())
-    json["radius_factor"] = std::min_element(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) {
-                              return a.radius_factor < b.radius_factor;
-                            })->radius_factor;
-  json["isa"] = to_string(isa);
-  if (traits_of(model).has_precision) json["precision"] = to_string(state.system.resolve_precision());
+// The factor that scaled radii of a file; none without a file of spheres.
+std::optional<double> radius_factor(const PathState& state, const std::vector<ConfigurationPair>& pairs) {
+  if (state.setup.radius_factor() || state.pair_files.empty()) return state.setup.radius_factor();
+  return std::min_element(pairs.begin(), pairs.end(),
+                          [](const auto& a, const auto& b) { return a.radius_factor < b.radius_factor; })
+      ->radius_factor;
 }
 
 // Resolves and checks everything the run needs, before there is a folder.
@@ -178,7 +171,7 @@ Json run_path(PathState& state, Options& options, int& status) {
     paths = run_paths(model, ends.pairs, path_options, isa, {folder.checkpoints(), !state.common.resume.empty()}, monitor);
   }
   const bool all_reached = add_paths(result, paths, *path_options.method, mixture_of(model)) && ends.all;
-  add_system(result, state, model, ends.pairs, isa);
+  add_system(result, state.system, model, radius_factor(state, ends.pairs), isa);
   status = all_reached ? done : goal_not_reached;
   if (folder.exists()) write_files(folder, paths, *path_options.method, mixture_of(model));
   write_result(folder, "path", options.resolved(), result);

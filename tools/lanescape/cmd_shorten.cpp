@@ -2,6 +2,7 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "path_check_report.hpp"
 #include "path_options.hpp"
 #include "path_report.hpp"
+#include "plot.hpp"
 #include "run/given_path.hpp"
 #include "run/shorten_run.hpp"
 
@@ -34,6 +36,7 @@ struct ShortenState {
   PathOptions path;
   std::uint64_t starts = 1;
   double overlap_tolerance = default_overlap_tolerance;
+  bool plot = false;
 
   ShortenOptions run_options(const AnyModel& model) const {
     return {&shorten_method(method), path.run_options(model, common.threads, system.resolve_precision()), starts, common.seed};
@@ -109,7 +112,7 @@ Json to_json(const ShortenResult& result, const PathMethod& method, const Mixtur
 void write_trials(std::ostream& out, const std::vector<ShortenTrial>& trials) {
   out << "trial,distance_to_goal,length,accepted\n";
   for (std::size_t k = 0; k < trials.size(); ++k)
-    fmt::print(out, "{},{},{},{}\n", k + 1, trials[k].distance_left, trials[k].length ? fmt::format("{}", *trials[k].length) : "",
+    fmt::print(out, "{},{},{},{}\n", k + 1, trials[k].distance_left, trials[k].length.value_or(std::nan("")),
                trials[k].accepted ? 1 : 0);
 }
 
@@ -130,16 +133,6 @@ void write_files(OutputFolder& folder, const ShortenResult& result, const Shorte
   path.frames = some_of(path.frames, state.path.frames);
   write_path_files(folder, 0, path, mixture_of(model));
   folder.write("path-0001-trials.csv", [&](std::ostream& out) { write_trials(out, result.shortest.trials); });
-}
-
-void add_system(Json& json, const ShortenState& state, const AnyModel& model, const ConfigurationPair& pair, Isa isa) {
-  json["model"] = mixture_of(model).name;
-  if (is_hard(model))
-    json["radius_factor"] = pair.radius_factor;
-  else
-    json["images"] = to_string(traits_of(model).images);
-  json["isa"] = to_string(isa);
-  if (traits_of(model).has_precision) json["precision"] = to_string(state.system.resolve_precision());
 }
 
 Json run_path_check(ShortenState& state, Options& options, Isa isa) {
@@ -165,6 +158,7 @@ Json run_shortening(ShortenState& state, Options& options, int& status) {
   const ShortenInput input = read_input(state, model, shorten_options.search, isa);
   state.system.check_precision_in(model, input.pair.start.box, path_skin);
 
+  if (state.plot) check_plots();
   OutputFolder folder = open_folder(state.common);
   folder.write_run_file("shorten", options.resolved());
   if (state.common.resume.empty()) {
@@ -175,10 +169,11 @@ Json run_shortening(ShortenState& state, Options& options, int& status) {
   const ShortenResult shortened = run_shorten(model, input.pair, input.nodes, shorten_options, isa,
                                               {folder.checkpoints(), !state.common.resume.empty()}, monitor);
   Json result = to_json(shortened, path_method, mixture_of(model));
-  add_system(result, state, model, input.pair, isa);
+  add_system(result, state.system, model, input.pair.radius_factor, isa);
   status = shortened.outcome == Outcome::reached ? done : goal_not_reached;
   if (folder.exists()) write_files(folder, shortened, state, model, isa);
   write_result(folder, "shorten", options.resolved(), result);
+  if (state.plot) draw_plots(folder.path(), status);
   return result;
 }
 
@@ -198,6 +193,7 @@ Subcommand add_shorten(CLI::App& app) {
   state->path.add_to(*options, "--path-method");
   options->add("--frames", state->path.frames, "configurations of the path to write between its ends")
       .only_for({runs_with_a_folder});
+  options->add_flag("--plot", state->plot, "draw the lengths that were found (needs --out)").only_for({runs_with_a_folder});
   options->end_group();
   options
       ->add("--overlap-tolerance", state->overlap_tolerance,

@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "configuration/model_traits.hpp"
 #include "io/extended_xyz.hpp"
 #include "run/path_file.hpp"
 
@@ -49,6 +50,16 @@ Json path_json(const PathResult& path, const PathMethod& method, const Mixture& 
     json["heterogeneity"][mixture.species[s].name] = path.heterogeneity[s];
   json["reversed"] = path.reversed;
   return json;
+}
+
+void add_system(Json& json, const SystemOptions& system, const AnyModel& model, std::optional<double> radius_factor, Isa isa) {
+  json["model"] = mixture_of(model).name;
+  if (!is_hard(model))
+    json["images"] = to_string(traits_of(model).images);
+  else if (radius_factor)
+    json["radius_factor"] = *radius_factor;
+  json["isa"] = to_string(isa);
+  if (traits_of(model).has_precision) json["precision"] = to_string(system.resolve_precision());
 }
 
 void write_path_files(OutputFolder& folder, std::size_t number, const PathResult& path, const Mixture& mixture) {

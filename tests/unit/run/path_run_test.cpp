@@ -11,20 +11,13 @@
 
 #include "stopping_monitor.hpp"
 #include "test_files.hpp"
+#include "two_particles.hpp"
 
 namespace lanescape {
 namespace {
 
 using testing::refusal;
-
-// Two particles with a resting centre, `r` apart, before and after a rotation by `degrees`.
-ConfigurationPair turned(double r_before, double r_after, double degrees) {
-  const double angle = degrees * std::numbers::pi / 180.0;
-  const auto around = [](double x, double y) {
-    return Configuration{{{10.0, 10.0, 10.0}}, {0, 0}, {5.0 + x, 5.0 + y, 5.0, 5.0 - x, 5.0 - y, 5.0}};
-  };
-  return {around(0.5 * r_before, 0.0), around(0.5 * r_after * std::cos(angle), 0.5 * r_after * std::sin(angle))};
-}
+using testing::turned;
 
 // The straight path is forbidden, for Lennard-Jones particles and for hard spheres.
 ConfigurationPair soft_pair() { return turned(1.3, 1.25, 120.0); }
