@@ -12,13 +12,13 @@
 namespace lanescape {
 namespace {
 
-using Phase = HardEndPointGenerator::Phase;
+using HardPhase = HardEndPointGenerator::Phase;
 
-constexpr EnumWord<Phase> phase_names[] = {{Phase::equilibrate, "equilibration"},
-                                           {Phase::pair, "towards the far end point"},
-                                           {Phase::between, "between pairs"},
-                                           {Phase::done, "done"},
-                                           {Phase::distance_not_reached, "distance not reached"}};
+constexpr EnumWord<HardPhase> hard_phase_names[] = {{HardPhase::equilibrate, "equilibration"},
+                                                    {HardPhase::pair, "towards the far end point"},
+                                                    {HardPhase::between, "between pairs"},
+                                                    {HardPhase::done, "done"},
+                                                    {HardPhase::distance_not_reached, "distance not reached"}};
 
 }  // namespace
 
@@ -48,7 +48,7 @@ HardEndPointGenerator::HardEndPointGenerator(const HardSphereModel& model, const
   enter(options_.equilibration_collisions > 0 ? Phase::equilibrate : Phase::pair);
 }
 
-const char* HardEndPointGenerator::name(Phase phase) { return word_of(phase_names, phase); }
+const char* HardEndPointGenerator::name(Phase phase) { return word_of(hard_phase_names, phase); }
 
 std::uint64_t HardEndPointGenerator::phase_total() const {
   if (phase_ == Phase::equilibrate) return options_.equilibration_collisions;

@@ -61,14 +61,18 @@ void check_allowed(const std::vector<Configuration>& nodes, const AnyModel& mode
 
 }  // namespace
 
-std::vector<Configuration> fit_path(std::vector<Configuration> nodes, const AnyModel& model, const ConfigurationPair& pair,
-                                    const std::string& where, const PathRunOptions& options, Isa isa) {
+void match_ends(std::vector<Configuration>& nodes, const AnyModel& model, const ConfigurationPair& pair, const std::string& where) {
   if (nodes.size() < 3) throw_bad_input(fmt::format("{}: holds {} frames: a path has at least 3", where, nodes.size()));
   for (std::size_t k = 0; k < nodes.size(); ++k) check_system(nodes[k], pair.start, fmt::format("{}, frame {}", where, k + 1));
   if (distance(nodes.front(), pair.finish) < distance(nodes.front(), pair.start)) std::reverse(nodes.begin(), nodes.end());
   const double unit = length_unit(model);
   if (distance(nodes.front(), pair.start) > end_tolerance * unit || distance(nodes.back(), pair.finish) > end_tolerance * unit)
     throw_bad_input(where + ": its first and last frame are not the end points of the pair");
+}
+
+std::vector<Configuration> fit_path(std::vector<Configuration> nodes, const AnyModel& model, const ConfigurationPair& pair,
+                                    const std::string& where, const PathRunOptions& options, Isa isa) {
+  match_ends(nodes, model, pair, where);
   nodes.front() = pair.start;
   nodes.back() = pair.finish;
   for (Configuration& node : nodes) {

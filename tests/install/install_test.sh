@@ -37,7 +37,7 @@ configure() {
 configure "$host" build
 cmake --build "$work/build" >"$work/build.log" 2>&1 || { cat "$work/build.log"; fail "lanescape::lanescape"; }
 check_host "$work/build/host" CMake
-! grep -iE '^(hdf5|tomlplusplus|kissfft|xsimd)' "$work/build/CMakeCache.txt" || fail "a host looks for what only the library's build needs"
+! grep -iE '^(hdf5|tomlplusplus|eigen3|kissfft|xsimd)' "$work/build/CMakeCache.txt" || fail "a host looks for what only the library's build needs"
 
 # What docs/HOSTS.md shows for C++.
 documented=$2/docs/snippets/hosts/cpp

@@ -28,4 +28,4 @@ cmake --build "$work/build" >"$work/build.log" 2>&1 || { cat "$work/build.log"; 
 cd "$2"
 cmake --preset kernels -B "$work/only" -G "${CMAKE_GENERATOR:-Ninja}" -DCMAKE_CXX_COMPILER="$cxx" >"$work/only.log" 2>&1 ||
   { cat "$work/only.log"; fail "cmake --preset kernels"; }
-! grep -iE '^(hdf5|tomlplusplus|cli11|nlohmann_json|kissfft|benchmark)' "$work/only/CMakeCache.txt" || fail "the preset kernels looks for the above"
+! grep -iE '^(hdf5|tomlplusplus|eigen3|cli11|nlohmann_json|kissfft|benchmark)' "$work/only/CMakeCache.txt" || fail "the preset kernels looks for the above"

@@ -12,6 +12,7 @@
 #include "end_point_options.hpp"
 #include "io/extended_xyz.hpp"
 #include "pair_files.hpp"
+#include "path_check_report.hpp"
 #include "path_options.hpp"
 #include "path_report.hpp"
 #include "plot.hpp"
@@ -24,10 +25,13 @@ namespace {
 // The path that the run starts from, kept so that it can be resumed.
 constexpr const char* kept_path = "given-path.extxyz";
 
+constexpr Scope shortening_runs{"check", "runs that shorten, without --check"};
+constexpr Scope own_models{"whole path", "runs without a path of HDF5, which holds its model"};
+
 struct ShortenState {
   CommonOptions common;
   SystemOptions system;
-  std::string pair_file, path_file;
+  std::string pair_file, path_file, checked_file;
   std::string method = default_shorten_method().word;
   PathOptions path;
   std::uint64_t starts = 1;
@@ -38,7 +42,11 @@ struct ShortenState {
     return {&shorten_method(method), path.run_options(model, common.threads, system.resolve_precision()), starts, common.seed};
   }
   RunKinds kinds(const AnyModel& model, const PathRunOptions& search) const {
-    return joined({system.kinds(model, false), path.kinds(search), {common.folder_kind()}});
+    return joined({system.kinds(model, false),
+                   path.kinds(search),
+                   {common.folder_kind(), kind_if(checked_file.empty(), shortening_runs, "without --check", "with --check"),
+                    kind_if(checked_file.empty() || !is_path_file(checked_file), own_models, "with frames or without --check",
+                            fmt::format("with {}", checked_file))}});
   }
 };
 
@@ -49,9 +57,12 @@ struct ShortenInput {
 
 std::vector<Configuration> read_path(const std::filesystem::path& file, const AnyModel& model, const ConfigurationPair& pair,
                                      const PathRunOptions& options, Isa isa) {
-  std::vector<Configuration> nodes;
-  for (Frame& frame : read_frames(file, mixture_of(model), traits_of(model).sizes)) nodes.push_back(std::move(frame.configuration));
-  return fit_path(std::move(nodes), model, pair, file.string(), options, isa);
+  PathFile path = read_whole_path(file, model);
+  const auto named = [](const Species& a, const Species& b) { return a.name == b.name; };
+  if (!std::ranges::equal(mixture_of(path.model).species, mixture_of(model).species, named))
+    throw_bad_input(fmt::format("{}: its species are those of {}, not of model {}", file.string(), mixture_of(path.model).name,
+                                mixture_of(model).name));
+  return fit_path(std::move(path.nodes), model, pair, file.string(), options, isa);
 }
 
 // From the files named by the options; of an interrupted run, from its folder.
@@ -113,17 +124,33 @@ std::vector<Configuration> some_of(const std::vector<Configuration>& nodes, std:
   return chosen;
 }
 
-void write_files(OutputFolder& folder, const ShortenResult& result, std::size_t frames, const Mixture& mixture) {
+void write_files(OutputFolder& folder, const ShortenResult& result, const ShortenState& state, const AnyModel& model, Isa isa) {
   if (result.shortest.path.frames.empty()) return;
   PathResult path = result.shortest.path;
-  path.frames = some_of(path.frames, frames);
-  write_path_files(folder, 0, path, mixture);
+  if (result.shortest.kuhn_tucker_residual)
+    write_whole_path(folder, 0, model, path.frames, is_hard(model) ? std::nullopt : std::optional(path.landscape_energy),
+                     state.method, isa, state.common.threads);
+  path.frames = some_of(path.frames, state.path.frames);
+  write_path_files(folder, 0, path, mixture_of(model));
   folder.write("path-0001-trials.csv", [&](std::ostream& out) { write_trials(out, result.shortest.trials); });
+}
+
+Json run_path_check(ShortenState& state, Options& options, Isa isa) {
+  const PathFile path = read_whole_path(state.checked_file, state.system.resolve());
+  PathRunOptions unused;  // paths are found by none of them
+  unused.method = &default_path_method(is_hard(path.model));
+  options.settle(state.kinds(path.model, unused));
+  const Json result = check_file(state.checked_file, path, state.pair_file, state.overlap_tolerance, isa, state.common.threads);
+  OutputFolder folder = open_folder(state.common);
+  write_result(folder, "shorten", options.resolved(), result);
+  return result;
 }
 
 Json run_shortening(ShortenState& state, Options& options, int& status) {
   state.common.check();
   const Isa isa = state.common.resolve_isa();
+  if (!state.checked_file.empty()) return run_path_check(state, options, isa);
+  if (state.pair_file.empty()) throw_bad_input("--pair: a file with the two end points is needed, or --check with a path");
   const AnyModel model = state.system.resolve();
   const ShortenOptions shorten_options = state.run_options(model);
   const PathMethod& path_method = *shorten_options.search.method;
@@ -146,7 +173,7 @@ Json run_shortening(ShortenState& state, Options& options, int& status) {
   Json result = to_json(shortened, path_method, mixture_of(model));
   add_system(result, state.system, model, input.pair.radius_factor, isa);
   status = shortened.outcome == Outcome::reached ? done : goal_not_reached;
-  if (folder.exists()) write_files(folder, shortened, state.path.frames, mixture_of(model));
+  if (folder.exists()) write_files(folder, shortened, state, model, isa);
   write_result(folder, "shorten", options.resolved(), result);
   if (state.plot) draw_plots(folder.path(), status);
   return result;
@@ -157,8 +184,10 @@ Json run_shortening(ShortenState& state, Options& options, int& status) {
 Subcommand add_shorten(CLI::App& app) {
   const auto options = std::make_shared<Options>(app, "shorten", "Shorten the path between two end points");
   const auto state = std::make_shared<ShortenState>();
-  options->add("--pair", state->pair_file, "file with two frames, the end points, unwrapped (with a warning if they look wrapped)")
-      .required();
+  options->add("--pair", state->pair_file, "file with two frames, the end points, unwrapped (with a warning if they look wrapped)");
+  options->add("--check", state->checked_file,
+               "instead, check this path from its nodes alone: HDF5, or all nodes as frames; with --pair also its ends");
+  options->begin_group({shortening_runs});
   options->add("--path", state->path_file,
                "file with the frames of a path between them, as path writes it; without it the path method finds one");
   options->add("--method", state->method, fmt::format("how to shorten: {}", shorten_method_words()));
@@ -167,11 +196,15 @@ Subcommand add_shorten(CLI::App& app) {
   options->add("--frames", state->path.frames, "configurations of the path to write between its ends")
       .only_for({runs_with_a_folder});
   options->add_flag("--plot", state->plot, "draw the lengths that were found (needs --out)").only_for({runs_with_a_folder});
+  options->end_group();
   options
       ->add("--overlap-tolerance", state->overlap_tolerance,
             "of hard spheres in files, in units of s_ij: up to it radii are scaled")
       .only_for({hard_spheres});
   state->system.add_to(*options);
+  for (const char* of_the_model : {"--model", "--model-file", "--cutoff", "--images", "--truncation", "--composition"})
+    options->at(of_the_model).only_for({own_models});
+  options->at("--precision").only_for({shortening_runs});
   state->common.add_to(*options);
   return {&options->app(), [=](int& status) { return run_shortening(*state, *options, status); }};
 }

@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <map>
+#include <string>
+
 #include "configuration/model_traits.hpp"
 #include "io/extended_xyz.hpp"
+#include "run/path_file.hpp"
 
 namespace lanescape::program {
 namespace {
@@ -63,7 +67,9 @@ void add_system(Json& json, const SystemOptions& system, const AnyModel& model, 
 void write_path_files(OutputFolder& folder, std::size_t number, const PathResult& path, const Mixture& mixture) {
   const std::string name = fmt::format("path-{:04}", number + 1);
   folder.write(name + ".extxyz", [&](std::ostream& out) {
-    for (const Configuration& frame : path.frames) write_frame(out, frame, mixture, {});
+    std::map<std::string, std::string> info;
+    if (path.frames.front().radii.empty()) info[landscape_energy_key] = fmt::format("{}", path.landscape_energy);
+    for (const Configuration& frame : path.frames) write_frame(out, frame, mixture, info);
   });
   folder.write(name + "-steps.csv", [&](std::ostream& out) { write_histograms(out, path); });
   folder.write(name + "-particles.csv", [&](std::ostream& out) { write_particles(out, path, mixture); });

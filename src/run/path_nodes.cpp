@@ -1,0 +1,84 @@
+#include "run/path_nodes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "configuration/model_traits.hpp"
+#include "core/coordinate_checks.hpp"
+#include "core/error.hpp"
+#include "interaction/sphere/check_overlap.hpp"
+#include "landscape/make_landscape.hpp"
+
+namespace lanescape {
+namespace {
+
+void check_same_particles(const AnyModel& model, const std::vector<Configuration>& path) {
+  if (path.size() < 3) throw_bad_input(fmt::format("a path of {} nodes is not allowed: at least 3 are needed", path.size()));
+  const Configuration& first = path.front();
+  check_edges(first.box.length);
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    const auto differs = [&](const char* what) {
+      throw_bad_input(fmt::format("node {} of the path has other {} than the first: all nodes hold the same system", k, what));
+    };
+    if (!(path[k].box == first.box)) differs("box edges");
+    if (path[k].species != first.species) differs("particles");
+    if (path[k].radii != first.radii) differs("radii");
+    if (path[k].diameters != first.diameters) differs("diameters");
+  }
+  if (!is_hard(model)) return;
+  if (first.radii.size() != first.size()) throw_bad_input("the path has no radii: each hard sphere needs one");
+  check_box_holds_spheres(first);
+}
+
+}  // namespace
+
+PathNodes path_nodes(const AnyModel& model, const std::vector<Configuration>& path) {
+  const Mixture& mixture = mixture_of(model);
+  const ParticleLayout layout = ParticleLayout::in_space_order(path.front(), mixture.species.size());
+  PathNodes result{layout, KinematicMetric(mixture, layout), {}};
+  for (const Configuration& node : path) {
+    result.nodes.push_back(layout.to_slots(node.positions));
+    result.metric.to_kinematic(result.nodes.back());
+  }
+  return result;
+}
+
+std::vector<Configuration> configurations_of(const Polyline& nodes, const ParticleLayout& layout, const KinematicMetric& metric,
+                                             const Configuration& like) {
+  std::vector<Configuration> path(nodes.size(), like);
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    AlignedArray positions = nodes[k];
+    metric.to_positions(positions);
+    layout.put_user(positions, path[k].positions);
+  }
+  return path;
+}
+
+CheckedPath check_path(const AnyModel& model, const std::vector<Configuration>& path, std::optional<double> landscape_energy,
+                       Isa isa, const PathCheckOptions& options) {
+  check_same_particles(model, path);
+  for (const Configuration& node : path) check_finite_particles(node.positions);
+  const PathNodes made = path_nodes(model, path);
+  const Configuration& first = path.front();
+  CheckedPath result;
+  result.distance = VectorAlgebra(kernel_table(isa)).distance(made.nodes.front(), made.nodes.back());
+  if (is_hard(model)) {
+    if (landscape_energy) throw_bad_input("hard spheres have no landscape energy: without it only");
+    result.check = check_path(HardSpherePath{first.box, made.layout, first.radii, made.metric, isa}, made.nodes, options);
+    return result;
+  }
+  const auto make = [&]() -> std::unique_ptr<SoftLandscape> {
+    auto landscape = make_landscape(model, first.box, made.layout, isa, {.skin = path_skin});
+    if (made.metric.is_euclidean()) return landscape;
+    return std::make_unique<KinematicLandscape>(std::move(landscape), made.metric);
+  };
+  const auto end_energy = [&](const AlignedArray& end) { return make()->energy(end); };
+  result.landscape_energy =
+      landscape_energy ? *landscape_energy : std::max(end_energy(made.nodes.front()), end_energy(made.nodes.back()));
+  result.check = check_path(make, result.landscape_energy, made.nodes, options);
+  return result;
+}
+
+}  // namespace lanescape
