@@ -54,7 +54,7 @@ class MonteCarloShortening final : public ShortenWork {
 
   void advance(RunMonitor& monitor) override {
     if (!trial_) {
-      begin_trial();
+      begin_trial(monitor);
     } else {
       SilentMonitor nobody;  // the progress of one trial is none of the whole
       trial_->advance(nobody);
@@ -102,24 +102,28 @@ class MonteCarloShortening final : public ShortenWork {
     path_.frames = std::move(kept);
   }
 
-  void begin_trial() {
+  void begin_trial(const RunMonitor& monitor) {
     const auto inner = static_cast<std::uint32_t>(path_.frames.size() - 2);
     if (inner == 0) return fail({});
     const std::uint32_t picked = 1 + random_.below(inner, trials_.size(), start_, 0);
     const std::vector<double>& positions = path_.frames[picked].positions;
+    std::optional<std::vector<double>> displaced = displace(positions, monitor);
+    if (!displaced) return;
     distance_left_ = algebra_.distance(kinematic(positions), setup_.prepared.goal);
-    displaced_ = displace(positions);
+    displaced_ = std::move(*displaced);
     if (displaced_.empty()) return fail({});
     trial_ = paths_from_displaced();
   }
 
-  // Moves single particles until the configuration is far enough from where it was; empty if it never is.
-  std::vector<double> displace(const std::vector<double>& from) const {
+  // Moves single particles until the configuration is far enough from where it was; empty if it never is. Nothing if the monitor
+  // asks to stop.
+  std::optional<std::vector<double>> displace(const std::vector<double>& from, const RunMonitor& monitor) const {
     const AllowedRegion allowed = allowed_region(setup_);
     const AlignedArray origin = kinematic(from);
     std::vector<double> now = from;
     const auto particles = static_cast<std::uint32_t>(from.size() / 3);
     for (std::uint32_t move = 0; move < most_moves; ++move) {
+      if (move % 1000 == 999 && monitor.stop_requested()) return std::nullopt;
       const std::size_t particle = random_.below(particles, trials_.size(), start_, 2 * move + 1);
       const Point by = random_.uniform_point(trials_.size(), start_, 2 * move + 2);
       std::vector<double> next = now;
@@ -129,7 +133,7 @@ class MonteCarloShortening final : public ShortenWork {
       now = std::move(next);
       if (algebra_.distance(q, origin) > unit_ * least_displacement) return now;
     }
-    return {};
+    return std::vector<double>{};
   }
 
   std::unique_ptr<PathPieces> paths_from_displaced() const {
