@@ -48,11 +48,12 @@ std::string check(const PathResult& path, const PairModel& model, const PathMeth
   return "";
 }
 
-void find_path(benchmark::State& state, const PathMethod& method, ImageRule images) {
+void find_path(benchmark::State& state, const PathMethod& method, Stepping stepping, ImageRule images) {
   const PairModel model = kob_andersen_with(images);
   const ConfigurationPair pair = read_pair(model);
   PathRunOptions options;
   options.method = &method;
+  options.stepping = stepping;
   options.finder.frames = 20;
   SilentMonitor monitor;
   PathResult path;
@@ -71,10 +72,13 @@ void find_path(benchmark::State& state, const PathMethod& method, ImageRule imag
 }
 
 void register_all() {
-  for (const char* word : {"contour", "escape"})
+  for (const PathMethod& method : path_methods())
     for (const ImageRule images : {ImageRule::minimum, ImageRule::all})
-      register_run(fmt::format("path/{}/{}", word, to_string(images)),
-                   [word, images](benchmark::State& state) { find_path(state, path_method(word), images); });
+      for (const Stepping stepping : {Stepping::faithful, Stepping::adaptive}) {
+        if (method.is_hard || (stepping == Stepping::adaptive && method.begin_adaptive == nullptr)) continue;
+        register_run(fmt::format("path/{}{}/{}", method.word, stepping == Stepping::adaptive ? "-adaptive" : "", to_string(images)),
+                     [&method, stepping, images](benchmark::State& state) { find_path(state, method, stepping, images); });
+      }
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ module lanescape_paths
   ! How a path is searched; 0 and blanks stand for the library's own choice.
   type, public :: lanescape_path_settings
     character(16) :: method = ""                   ! contour or escape (soft), avoidance or away (hard spheres)
+    logical :: adaptive = .false.                  ! contour: steps as long as an estimate of their error allows
     real(dp) :: step = 0, avoidance_step = 0       ! length of a direct step in 3N space; of each sphere that an avoidance step moves
     character(16) :: fictitious = ""               ! force between overlapping spheres: harmonic, linear, cubic
     real(dp), allocatable :: landscape_energy      ! E_L; not allocated: the higher of the two ends
@@ -49,6 +50,7 @@ module lanescape_paths
     type(c_ptr) :: precision = c_null_ptr, instruction_set = c_null_ptr
     type(c_funptr) :: progress = c_null_funptr
     type(c_ptr) :: progress_user = c_null_ptr
+    integer(c_int) :: adaptive = 0
   end type settings_c
 
   type, bind(c) :: summary_c
@@ -167,6 +169,7 @@ contains
     if (settings%fictitious /= "") s%fictitious = addresses(2)
     if (settings%precision /= "") s%precision = addresses(3)
     if (settings%instruction_set /= "") s%instruction_set = addresses(4)
+    s%adaptive = merge(1, 0, settings%adaptive)
     s%step = settings%step
     s%avoidance_step = settings%avoidance_step
     if (allocated(settings%landscape_energy)) s%landscape_energy = c_loc(settings%landscape_energy)

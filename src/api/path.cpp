@@ -38,6 +38,7 @@ class ProgressMonitor final : public RunMonitor {
 PathRunOptions options_of(const PathSettings& settings, const AnyModel& model) {
   PathRunOptions options;
   options.method = settings.method.empty() ? &default_path_method(is_hard(model)) : &path_method(settings.method);
+  options.stepping = settings.adaptive ? Stepping::adaptive : Stepping::faithful;
   if (settings.step != 0.0) options.direct_step = settings.step;
   if (settings.avoidance_step != 0.0) options.avoidance_step = settings.avoidance_step;
   options.fictitious = parse_contact_potential(settings.fictitious);
@@ -59,7 +60,7 @@ PathResult one_way(const SearchSetup& setup, const Progress& progress) {
   const FloatEnvironment environment;
   const double share = setup.options.reverse ? 0.5 : 1.0;
   ProgressMonitor monitor(progress, setup.reversed ? share : 0.0, share);
-  const auto search = setup.options.method->begin(setup);
+  const auto search = begin_path(setup);
   while (!search->finished() && !monitor.stop_requested()) search->advance(monitor);
   return search->result();
 }

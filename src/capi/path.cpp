@@ -16,6 +16,7 @@ PathSettings settings_of(const lanescape_path_settings* given) {
   if (given == nullptr) return settings;
   const auto& s = sized(given, "settings", "lanescape_path_settings");
   settings.method = word(s.method, "");
+  settings.adaptive = s.adaptive != 0;
   settings.step = s.step;
   settings.avoidance_step = s.avoidance_step;
   settings.fictitious = word(s.fictitious, settings.fictitious.c_str());

@@ -30,7 +30,8 @@ struct FinderOptions {
   // Accepted steps without progress after which a path is stalled; methods that make long detours multiply it
   // (run/path_methods.cpp).
   std::uint64_t patience = 1000;
-  std::size_t frames = 100;  // configurations kept between the two ends
+  std::size_t frames = 100;                // configurations kept between the two ends
+  Stepping stepping = Stepping::faithful;  // what the statistics along the path weigh steps with
 };
 
 // Walks from R_i to R_f with a stepper that makes direct steps and detours (PHYSICS 3). The state holds everything that the rest of
@@ -48,7 +49,7 @@ class PathFinder {
         to_goal_(position_.size(), 0.0),
         next_(position_.size(), 0.0),
         best_distance_(algebra_->distance(position_, goal_)),
-        statistics_(position_.size() / 3, particles),
+        statistics_(position_.size() / 3, particles, options.stepping),
         recorder_(options.frames, best_distance_) {}
 
   Outcome outcome() const { return outcome_; }
@@ -59,6 +60,8 @@ class PathFinder {
   std::uint64_t direct_steps() const { return direct_steps_; }
   std::uint64_t detour_steps() const { return detour_steps_; }
   std::uint64_t steps() const { return direct_steps_ + detour_steps_; }
+  // Of the path's length, the part that detours made [sigma]; the rest are direct steps and the last hop.
+  double detour_length() const { return detour_length_; }
   double largest_violation() const { return largest_violation_; }
   double distance_left() const { return algebra_->distance(position_, goal_); }
   const AlignedArray& position() const { return position_; }
@@ -74,6 +77,7 @@ class PathFinder {
     archive.field("position", position_);
     archive.field("direct_steps", direct_steps_);
     archive.field("detour_steps", detour_steps_);
+    archive.field("detour_length", detour_length_);
     archive.field("largest_violation", largest_violation_);
     archive.field("best_distance", best_distance_);
     archive.field("best_step", best_step_);
@@ -97,7 +101,8 @@ class PathFinder {
     if (!kind)
       return end(Outcome::stalled, fmt::format("{}, at a distance of {:.6g} from the goal", stepper_.failure(), at.distance));
     ++(*kind == StepKind::direct ? direct_steps_ : detour_steps_);
-    statistics_.add_step(*algebra_, position_, next_);
+    const double length = statistics_.add_step(*algebra_, position_, next_);
+    if (*kind == StepKind::detour) detour_length_ += length;
     largest_violation_ = std::max(largest_violation_, stepper_.violation());
     position_.swap(next_);
   }
@@ -126,8 +131,10 @@ class PathFinder {
 
   // `distance` from the point just accepted to the goal.
   void record(double distance) {
-    recorder_.trace().add({static_cast<double>(steps()), statistics_.length(), distance, stepper_.monitored(),
-                           static_cast<double>(direct_steps_), statistics_.last_participation_number()});
+    const double direct =
+        options_.stepping == Stepping::adaptive ? statistics_.length() - detour_length_ : static_cast<double>(direct_steps_);
+    recorder_.trace().add({static_cast<double>(steps()), statistics_.length(), distance, stepper_.monitored(), direct,
+                           statistics_.last_participation_number()});
   }
 
   const VectorAlgebra* algebra_;
@@ -137,7 +144,7 @@ class PathFinder {
   Outcome outcome_ = Outcome::running;
   std::string reason_;
   std::uint64_t direct_steps_ = 0, detour_steps_ = 0;
-  double largest_violation_ = 0.0;
+  double detour_length_ = 0.0, largest_violation_ = 0.0;
   double best_distance_;
   std::uint64_t best_step_ = 0;
   PathStatistics statistics_;

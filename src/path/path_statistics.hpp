@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "core/aligned_array.hpp"
 #include "core/archive.hpp"
 #include "core/step_histogram.hpp"
 #include "dispatch/vector_algebra.hpp"
+#include "stepper/stepper.hpp"
 
 namespace lanescape {
 
@@ -18,9 +18,10 @@ class PathStatistics {
   static constexpr std::size_t alpha2_bins = 400;
   static constexpr double alpha2_width = 0.2;
 
-  PathStatistics(std::size_t slots, std::size_t particles);
+  PathStatistics(std::size_t slots, std::size_t particles, Stepping stepping = Stepping::faithful);
 
-  void add_step(const VectorAlgebra& algebra, const AlignedArray& from, const AlignedArray& to);
+  // Returns the length of the step [sigma].
+  double add_step(const VectorAlgebra& algebra, const AlignedArray& from, const AlignedArray& to);
   // The last displacement, to the goal: it has length but is not a step.
   void add_hop(const VectorAlgebra& algebra, const AlignedArray& from, const AlignedArray& to);
 
@@ -29,9 +30,10 @@ class PathStatistics {
   double participation_number() const { return length_ > 0.0 ? weighted_participation_ / length_ : 0.0; }
   // Of the last displacement.
   double last_participation_number() const { return last_participation_; }
-  // Over steps: how many had n/N, or alpha_2 = 0.6 N/n - 1, in each bin.
-  const std::vector<std::uint64_t>& participation_histogram() const { return participation_; }
-  const std::vector<std::uint64_t>& alpha2_histogram() const { return alpha2_; }
+  // How many steps had n/N, or alpha_2 = 0.6 N/n - 1, in each bin; of adaptive steps the sum of their lengths, so that both kinds
+  // of stepping give the same distribution.
+  const std::vector<double>& participation_histogram() const { return participation_; }
+  const std::vector<double>& alpha2_histogram() const { return alpha2_; }
   // Both, named: participation_ratio n/N and alpha_2.
   std::vector<StepHistogram> histograms() const;
   // g_j = sum |dr_j| of each slot.
@@ -40,11 +42,12 @@ class PathStatistics {
   void exchange(Archive& archive);
 
  private:
-  void add_displacement(const VectorAlgebra& algebra, const AlignedArray& from, const AlignedArray& to);
+  double add_displacement(const VectorAlgebra& algebra, const AlignedArray& from, const AlignedArray& to);
 
   double particles_;
+  Stepping stepping_;
   double length_ = 0.0, weighted_participation_ = 0.0, last_participation_ = 0.0;
-  std::vector<std::uint64_t> participation_, alpha2_;
+  std::vector<double> participation_, alpha2_;
   AlignedArray particle_lengths_;
 };
 

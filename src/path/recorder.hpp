@@ -13,8 +13,9 @@ namespace lanescape {
 // over steps.
 class PathRecorder {
  public:
-  // Rows of the trace: direct_steps counts from the start of the path, participation is the step's own n.
-  enum Column : std::size_t { step, length, distance, energy, direct_steps, participation, columns };
+  // Rows of the trace: direct counts direct steps from the start of the path, of adaptive ones their length; participation is the
+  // step's own n.
+  enum Column : std::size_t { step, length, distance, energy, direct, participation, columns };
   static constexpr std::size_t trace_rows = 4096;
 
   // `frames` configurations besides the two ends.

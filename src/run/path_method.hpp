@@ -21,6 +21,7 @@ struct PathMethod {
   std::optional<double> direct_step;  // default length of a direct step in 3N space [sigma]; none where steps have no length
   std::uint64_t patience_factor;      // FinderOptions::patience is multiplied by it
   std::unique_ptr<PathSearch> (*begin)(const SearchSetup& setup);
+  std::unique_ptr<PathSearch> (*begin_adaptive)(const SearchSetup& setup);  // nullptr: the method has no adaptive steps
 };
 
 // All methods; the first of each family is its default.
@@ -30,6 +31,8 @@ const PathMethod& default_path_method(bool is_hard);
 const PathMethod& path_method(std::string_view word);
 // The words of a family: "contour, escape".
 std::string path_method_words(bool is_hard, std::string_view separator = ", ");
+// Throws Error(bad_input), naming the methods that have them, if the method has no adaptive steps.
+void check_adaptive(const PathMethod& method);
 // Throws Error(bad_input) if the method is not for this kind of model.
 void check_method(const PathMethod& method, const AnyModel& model);
 

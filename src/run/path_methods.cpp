@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "landscape/hard_sphere_landscape.hpp"
 #include "run/path_search.hpp"
+#include "stepper/adaptive_contour.hpp"
 #include "stepper/avoidance.hpp"
 #include "stepper/away.hpp"
 #include "stepper/contour.hpp"
@@ -23,6 +24,12 @@ std::unique_ptr<PathSearch> begin_contour(const SearchSetup& setup) {
   ContourStepper stepper(*landscape, setup.prepared.landscape_energy,
                          {.direct_step = setup.options.step_length(setup.model),
                           .correction = ContourStepper::Options{}.correction * length_unit(setup.model)});
+  return begin_search(setup, std::move(landscape), std::move(stepper));
+}
+
+std::unique_ptr<PathSearch> begin_adaptive_contour(const SearchSetup& setup) {
+  auto landscape = path_landscape(setup);
+  AdaptiveContourStepper stepper(*landscape, setup.prepared.landscape_energy, {.unit = length_unit(setup.model)});
   return begin_search(setup, std::move(landscape), std::move(stepper));
 }
 
@@ -47,10 +54,10 @@ std::unique_ptr<PathSearch> begin_away(const SearchSetup& setup) {
 }
 
 // Avoidance makes long detours of short steps: it needs the most patience.
-constexpr PathMethod methods[] = {{"contour", false, 1e-3, 1, begin_contour},
-                                  {"escape", false, 1e-3, 1, begin_escape},
-                                  {"avoidance", true, 1e-2, 1000, begin_avoidance},
-                                  {"away", true, {}, 10, begin_away}};
+constexpr PathMethod methods[] = {{"contour", false, 1e-3, 1, begin_contour, begin_adaptive_contour},
+                                  {"escape", false, 1e-3, 1, begin_escape, nullptr},
+                                  {"avoidance", true, 1e-2, 1000, begin_avoidance, nullptr},
+                                  {"away", true, {}, 10, begin_away, nullptr}};
 
 }  // namespace
 
@@ -74,6 +81,14 @@ std::string path_method_words(bool is_hard, std::string_view separator) {
   for (const PathMethod& method : methods)
     if (method.is_hard == is_hard) words += fmt::format("{}{}", words.empty() ? "" : separator, method.word);
   return words;
+}
+
+void check_adaptive(const PathMethod& method) {
+  if (method.begin_adaptive != nullptr) return;
+  std::string words;
+  for (const PathMethod& other : methods)
+    if (other.begin_adaptive != nullptr) words += fmt::format("{}{}", words.empty() ? "" : ", ", other.word);
+  throw_bad_input(fmt::format("method {} has no adaptive steps: methods that have them are {}", method.word, words));
 }
 
 void check_method(const PathMethod& method, const AnyModel& model) {

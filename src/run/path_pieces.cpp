@@ -86,6 +86,8 @@ void exchange_joined(Archive& archive, PathResult& path, const ConfigurationPair
   archive.field("participation_number", path.participation_number);
   archive.field("direct_steps", path.direct_steps);
   archive.field("detour_steps", path.detour_steps);
+  archive.field("direct_length", path.direct_length);
+  archive.field("detour_length", path.detour_length);
   archive.field("evaluations", path.evaluations);
   archive.field("corrections", path.corrections);
   archive.field("largest_violation", path.largest_violation);
@@ -107,8 +109,8 @@ void PathPieces::begin() {
   const Configuration& like = whole_.pair.start;
   active_ = std::make_unique<Active>(
       Active{{at(like, piece.from), at(like, piece.to)}, with_ends(whole_.prepared, piece.from, piece.to, whole_.isa), nullptr});
-  active_->search = options_.method->begin(
-      {whole_.model, active_->pair, active_->prepared, options_, whole_.isa, whole_.threads, false, whole_.landscape});
+  active_->search =
+      begin_path({whole_.model, active_->pair, active_->prepared, options_, whole_.isa, whole_.threads, false, whole_.landscape});
 }
 
 void PathPieces::advance(RunMonitor& monitor) {
@@ -136,6 +138,8 @@ void PathPieces::join(PathResult piece, bool backwards) {
   joined_.length = length;
   joined_.direct_steps += piece.direct_steps;
   joined_.detour_steps += piece.detour_steps;
+  joined_.direct_length += piece.direct_length;
+  joined_.detour_length += piece.detour_length;
   joined_.evaluations += piece.evaluations;
   joined_.largest_violation = std::max(joined_.largest_violation, piece.largest_violation);
   add_up(joined_.corrections, piece.corrections);

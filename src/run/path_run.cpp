@@ -27,7 +27,7 @@ struct Searches {
   PathResult one_way(std::size_t number, bool reversed) const {
     // One level of threads: many paths at once, or the evaluations of one.
     const int threads = pairs.size() == 1 ? options.threads : 1;
-    const auto search = options.method->begin({model, pairs[number], prepared[number], options, isa, threads, reversed, {}});
+    const auto search = begin_path({model, pairs[number], prepared[number], options, isa, threads, reversed, {}});
     PartMonitor monitor(progress, number, reversed ? 0.5 : 0.0, options.reverse ? 0.5 : 1.0);
     run_to_end(*search, fmt::format("path-{:04}{}.h5", number + 1, reversed ? "-reverse" : ""), checkpoint, monitor);
     return search->result();

@@ -22,6 +22,8 @@ namespace lanescape {
 
 struct PathRunOptions {
   const PathMethod* method = &default_path_method(false);
+  // Faithful: every step as published, of the lengths below. Adaptive: as long as an estimate of the error allows.
+  Stepping stepping = Stepping::faithful;
   std::optional<double> direct_step;     // delta_di, in 3N space; else the method's own in the model's unit of length [sigma]
   std::optional<double> avoidance_step;  // delta_ca, of each particle that moves; else 1e-4 of that unit [sigma]
   kernels::ContactPotential fictitious = kernels::ContactPotential::harmonic;
@@ -31,9 +33,11 @@ struct PathRunOptions {
   int threads = 1;  // paths searched at once, or of one path the evaluations; no effect on any result
   Precision precision = Precision::double_precision;  // of soft particles
 
-  // The length of direct steps; 0 where the method's steps have none.
+  // Whether direct steps have a given length.
+  bool has_step_length() const { return stepping == Stepping::faithful && method->direct_step.has_value(); }
+  // The length of direct steps; 0 where they have none.
   double step_length(const AnyModel& model) const {
-    return method->direct_step ? direct_step.value_or(*method->direct_step * length_unit(model)) : 0.0;
+    return has_step_length() ? direct_step.value_or(*method->direct_step * length_unit(model)) : 0.0;
   }
   double avoidance_step_length(const AnyModel& model) const { return avoidance_step.value_or(1e-4 * length_unit(model)); }
   // Throws Error(bad_input) naming the option that is out of range.
@@ -48,9 +52,11 @@ struct PathResult {
   double distance = 0.0;              // DeltaR = |R_f - R_i| [sigma]
   double participation_number = 0.0;  // n, mean over steps weighted with their length
   std::uint64_t direct_steps = 0, detour_steps = 0, evaluations = 0;
-  std::vector<std::uint64_t> corrections;  // histogram of the stepper's inner iterations per detour
-  double landscape_energy = 0.0;           // E_L, soft [epsilon]
-  double largest_violation = 0.0;  // soft: largest V - E_L of an accepted point; hard: deepest overlap in a frame; at least 0
+  double direct_length = 0.0, detour_length = 0.0;  // g by kind of step; the last hop is direct [sigma]
+  std::vector<std::uint64_t> corrections;           // histogram of the stepper's inner iterations per detour
+  double landscape_energy = 0.0;                    // E_L, soft [epsilon]
+  double largest_violation = 0.0;  // soft: largest V - E_L of an accepted point, of adaptive steps along their segments; hard:
+                                   // deepest overlap in a frame; at least 0
   std::vector<StepHistogram> histograms;
   // Of each particle, user's order: g_j, and the distance between its ends [sigma].
   std::vector<double> particle_lengths, particle_displacements;

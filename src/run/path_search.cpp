@@ -49,7 +49,9 @@ std::unique_ptr<SoftLandscape> in_kinematic_coordinates(std::unique_ptr<SoftLand
 
 void PathRunOptions::check(const AnyModel& model) const {
   const double unit = length_unit(model);
-  if (method->direct_step) check_positive("step", step_length(model), 1.0 * unit);
+  if (stepping == Stepping::adaptive) check_adaptive(*method);
+  if (has_step_length()) check_positive("step", step_length(model), 1.0 * unit);
+  if (stepping == Stepping::adaptive && direct_step) throw_bad_input("adaptive steps have no given length: without a step only");
   check_positive("avoidance step", avoidance_step_length(model), 0.1 * unit);
   if (landscape_energy && method->is_hard) throw_bad_input("hard spheres have no landscape energy: without it only");
   if (landscape_energy && !std::isfinite(*landscape_energy))
@@ -90,6 +92,7 @@ PreparedPair prepare_pair_on(const SoftLandscapeMaker& make, const Mixture& mixt
 FinderOptions SearchSetup::finder_options() const {
   FinderOptions finder = options.finder;
   finder.patience *= options.method->patience_factor;
+  finder.stepping = options.stepping;
   return finder;
 }
 
@@ -111,6 +114,11 @@ PathResult shorter_way(PathResult forward, PathResult backward) {
   const bool keep_backward =
       backward.outcome == Outcome::reached && (forward.outcome != Outcome::reached || backward.length < forward.length);
   return keep_backward ? backward : forward;
+}
+
+std::unique_ptr<PathSearch> begin_path(const SearchSetup& setup) {
+  const PathMethod& method = *setup.options.method;
+  return (setup.options.stepping == Stepping::adaptive ? method.begin_adaptive : method.begin)(setup);
 }
 
 PathSearch::PathSearch(const SearchSetup& setup) : setup_(setup), chunk_(steps_per_chunk(setup.prepared.layout.size())) {}

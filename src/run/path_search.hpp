@@ -93,6 +93,9 @@ class PathSearch : public ResumableWork {
   std::uint64_t chunk_;  // steps between two calls of the monitor
 };
 
+// By the setup's method, with faithful or adaptive steps.
+std::unique_ptr<PathSearch> begin_path(const SearchSetup& setup);
+
 // PathSearch by a stepper on its landscape.
 template <class Landscape, Stepper Method>
 class StepperSearch final : public PathSearch {
@@ -117,6 +120,8 @@ class StepperSearch final : public PathSearch {
     result.reason = finder_.reason();
     result.direct_steps = finder_.direct_steps();
     result.detour_steps = finder_.detour_steps();
+    result.detour_length = finder_.detour_length();
+    result.direct_length = result.length - result.detour_length;
     result.evaluations = finder_.stepper().evaluations();
     result.corrections = finder_.stepper().corrections();
     result.largest_violation = finder_.largest_violation();

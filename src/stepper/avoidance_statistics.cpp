@@ -84,12 +84,15 @@ void AvoidanceStatistics::end_step(std::size_t moved) {
 }
 
 std::vector<StepHistogram> AvoidanceStatistics::histograms() const {
-  return {{"overlapping_partners", 0.0, 1.0, partners_},
-          {"moved_particles", 0.0, 1.0, moved_},
-          {"groups", 0.0, 1.0, group_numbers_},
-          {"group_size_few_groups", 0.0, 1.0, group_sizes_[few_groups]},
-          {"group_size_some_groups", 0.0, 1.0, group_sizes_[some_groups]},
-          {"group_size_many_groups", 0.0, 1.0, group_sizes_[many_groups]}};
+  const auto histogram = [](const char* quantity, const std::vector<std::uint64_t>& counts) {
+    return StepHistogram{quantity, 0.0, 1.0, {counts.begin(), counts.end()}};
+  };
+  return {histogram("overlapping_partners", partners_),
+          histogram("moved_particles", moved_),
+          histogram("groups", group_numbers_),
+          histogram("group_size_few_groups", group_sizes_[few_groups]),
+          histogram("group_size_some_groups", group_sizes_[some_groups]),
+          histogram("group_size_many_groups", group_sizes_[many_groups])};
 }
 
 void AvoidanceStatistics::exchange(Archive& archive) {

@@ -18,6 +18,9 @@ struct PathPoint {
   double distance;  // |R_f - R(t)|
 };
 
+// How long the steps of a path are: as published, all alike, or as long as an estimate of their error allows.
+enum class Stepping { faithful, adaptive };
+
 // How an accepted step was made.
 enum class StepKind { direct, detour };
 

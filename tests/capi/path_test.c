@@ -41,11 +41,12 @@ static lanescape_path_summary summary_of(const lanescape_path* path) {
 
 static double start[6], finish[6];
 
-static void both_landscapes_have_one_path(const char* method) {
+static void both_landscapes_have_one_path(const char* method, int adaptive) {
   lanescape_model* model = named_model("lennard-jones");
   lanescape_path_settings settings;
   OK(lanescape_path_settings_init(&settings, sizeof settings));
   settings.method = method;
+  settings.adaptive = adaptive;
   lanescape_path *of_model = NULL, *of_host = NULL;
   OK(lanescape_find_path(model, 2, two, cube, start, finish, NULL, &settings, &of_model));
   struct host host = {0, 0, 0};
@@ -55,6 +56,7 @@ static void both_landscapes_have_one_path(const char* method) {
   CHECK(a.reached && strcmp(a.outcome, "reached") == 0 && a.length > a.distance && a.particles == 2 && a.frames > 2);
   CHECK(b.reached && near(a.length, b.length, 1e-3 * a.length) && near(a.landscape_energy, b.landscape_energy, 1e-12));
   CHECK(b.evaluations > 0 && host.calls > 0);
+  CHECK((a.direct_steps + a.detour_steps < 300) == adaptive && (b.direct_steps + b.detour_steps < 300) == adaptive);
   double frame[6];
   OK(lanescape_path_frame(of_host, 0, frame));
   CHECK(memcmp(frame, start, sizeof frame) == 0);
@@ -111,6 +113,9 @@ static void bad_paths_are_refused(void) {
   settings.threads = 0;
   REFUSED(lanescape_find_path_on(&landscape, start, finish, NULL, &settings, &path), "0 threads are not allowed");
   settings.threads = 1;
+  settings.method = "escape";
+  settings.adaptive = 1;
+  REFUSED(lanescape_find_path_on(&landscape, start, finish, NULL, &settings, &path), "method escape has no adaptive steps");
   settings.method = "magic";
   REFUSED(lanescape_find_path_on(&landscape, start, finish, NULL, &settings, &path), "magic");
   settings.size = 4;
@@ -142,8 +147,9 @@ static void bad_paths_are_refused(void) {
 int main(void) {
   turned(1.3, 0.0, start);
   turned(1.25, 120.0, finish);
-  both_landscapes_have_one_path("contour");
-  both_landscapes_have_one_path("escape");
+  both_landscapes_have_one_path("contour", 0);
+  both_landscapes_have_one_path("contour", 1);
+  both_landscapes_have_one_path("escape", 0);
   an_error_of_the_landscape_comes_back();
   progress_ends_the_search();
   bad_paths_are_refused();

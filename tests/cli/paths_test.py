@@ -28,6 +28,8 @@ class Paths(ProgramTest):
                 self.assertEqual(path["outcome"], "reached")
                 self.assertEqual(set(path["steps"]), {"direct", method})
                 self.assertGreater(path["steps"][method], 100)
+                self.assertEqual(set(path["lengths"]), {"direct", method})
+                self.assertAlmostEqual(sum(path["lengths"].values()), path["length"], delta=1e-12 * path["length"])
                 self.assertGreater(path["length"], path["distance"])
                 self.assertAlmostEqual(path["ratio_squared"], (path["distance"] / path["length"]) ** 2, delta=1e-12)
                 self.assertTrue(1 / 32 <= path["participation_ratio"] <= 1)
@@ -42,6 +44,21 @@ class Paths(ProgramTest):
                 self.assertEqual(len(lines), 7 * 34)
                 ends = Path(pair).read_text().splitlines()
                 self.assertEqual((lines[2:34], lines[-32:]), (ends[2:34], ends[-32:]))
+
+    def test_adaptive_steps_find_the_faithful_path_in_fewer_steps(self):
+        [pair] = self.make_pairs("ends")
+        [faithful] = self.done("path", *ARGON, "--pair", pair, "--faithful")["paths"]
+        [adaptive] = self.done("path", *ARGON, "--pair", pair, "--adaptive")["paths"]
+        self.assertEqual(set(adaptive), set(faithful))
+        self.assertLess(10 * adaptive["evaluations"], faithful["evaluations"])
+        self.assertAlmostEqual(adaptive["length"], faithful["length"], delta=0.01 * faithful["length"])
+        self.assertLessEqual(adaptive["largest_violation"], 1e-3)
+
+    def test_adaptive_steps_are_refused_where_there_are_none(self):
+        [pair] = self.make_pairs("ends")
+        self.refused("path", *ARGON, "--pair", pair, "--method", "escape", "--adaptive",
+                     says="method escape has no adaptive steps: methods that have them are contour")
+        self.refused("path", *ARGON, "--pair", pair, "--faithful", "--adaptive", says="--faithful excludes --adaptive")
 
     def test_end_points_are_made_where_none_are_given(self):
         made = self.done("path", *ARGON, *FLUID, "--seed", "7", "--out", self.folder / "made")

@@ -71,6 +71,13 @@ class Shorten(InterruptionTest):
         one, two = (self.done(*self.SPHERES, "--pair", pair, "--starts", "3", "--threads", n) for n in ("1", "2"))
         self.assertEqual(without_seconds(one), without_seconds(two))
 
+    def test_adaptive_steps_take_fewer_evaluations(self):
+        [pair] = self.make_pairs("ends")
+        faithful, adaptive = (self.done("shorten", *ARGON, "--pair", pair, steps) for steps in ("--faithful", "--adaptive"))
+        self.assertLess(10 * adaptive["evaluations"], faithful["evaluations"])
+        self.assertAlmostEqual(adaptive["length_before"], faithful["length_before"], delta=0.05 * faithful["length_before"])
+        self.refused_cleanly("shorten", *ARGON, "--pair", pair, "--path-method", "escape", "--adaptive", says="adaptive")
+
     def test_a_written_path_is_where_it_starts_from(self):
         [pair] = self.make_pairs("ends")
         for more in ((), ("--reverse",)):

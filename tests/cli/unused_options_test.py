@@ -67,6 +67,8 @@ class UnusedOptions(ProgramTest):
     def test_of_paths_by_another_method(self):
         self.all_refused(("path", *ARGON, *TINY), ("--avoidance-step=1e-4", "--fictitious=linear"), "with method contour", "avoidance")
         self.all_refused(("path", *MIXTURE, "--method", "away"), ("--step=0.1", "--fictitious=linear"), "with method away", "avoidance")
+        self.all_refused(("path", *ARGON, *TINY, "--adaptive"), ("--step=0.1", "--fictitious=linear"), "with method contour and --adaptive",
+                         "faithful")
 
     def test_of_a_start_from_a_file(self):
         start = self.file("start.xyz", frame(*TWO))

@@ -60,7 +60,7 @@ contains
 
   subroutine both_landscapes_have_one_path()
     type(lanescape_model) :: model
-    type(lanescape_path) :: of_model, of_procedure
+    type(lanescape_path) :: of_model, of_procedure, adaptive
     type(lanescape_path_settings) :: settings
     real(dp) :: frame(3, 2)
     call model%named("lennard-jones")
@@ -78,6 +78,12 @@ contains
     call refused(stat, errmsg, "numbered from 0")
     call of_procedure%frame(0, frame, stat, errmsg)
     call refused(stat, errmsg, "numbered from 0")
+    settings%adaptive = .true.
+    call adaptive%find_on(evaluate, start, finish_at, settings)
+    call expect(adaptive%reached, "adaptive steps reach the goal")
+    call expect(abs(adaptive%length - of_model%length) < 0.01_dp*of_model%length, "by a path of the same length")
+    call expect(10*adaptive%evaluations < of_procedure%evaluations, "with fewer evaluations")
+    settings%adaptive = .false.
     settings%method = "escape"
     settings%frames = 3
     settings%landscape_energy = of_model%landscape_energy + 0.1_dp

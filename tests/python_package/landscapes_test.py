@@ -62,6 +62,15 @@ class PathTest(unittest.TestCase):
             self.assertEqual(path.direct_steps, expected.direct_steps)
             self.assertAlmostEqual(path.length, expected.length, delta=1e-9 * expected.length)
 
+    def test_adaptive_steps_find_the_path_with_fewer_evaluations(self):
+        faithful = self.path_of_model()
+        for path in (self.path_of_model(adaptive=True), self.path(self.potential.energy_and_gradient, adaptive=True)):
+            self.assertTrue(path.reached, path.reason)
+            self.assertAlmostEqual(path.length, faithful.length, delta=0.02 * faithful.length)
+            self.assertLess(10 * path.evaluations, faithful.evaluations)
+        with self.assertRaisesRegex(lanescape.InputError, "method escape has no adaptive steps: methods that have them are "):
+            self.path_of_model(method="escape", adaptive=True)
+
     def test_exceptions_of_a_landscape_pass_through(self):
         class Own(Exception):
             pass

@@ -107,7 +107,7 @@ class StrangeArgumentsTest(unittest.TestCase):
             lanescape.find_path(landscape, start, finish, **{"max_steps": 20, **options})
 
         self.calls(path, [potential, positions, positions + 0.01],
-                   ["masses", "method", "step", "avoidance_step", "fictitious", "landscape_energy", "reverse", "patience", "frames", "threads",
+                   ["masses", "method", "adaptive", "step", "avoidance_step", "fictitious", "landscape_energy", "reverse", "patience", "frames", "threads",
                     "precision", "instruction_set", "progress", "species", "box"])
         self.calls(lanescape.MolecularDynamics, [potential, positions, 0.001], ["masses"])
         dynamics = lanescape.MolecularDynamics(potential, positions, 0.001)

@@ -32,11 +32,11 @@ struct PathState {
     return options;
   }
 
-  RunKinds kinds(const AnyModel& model, const PathMethod& of_method) const {
+  RunKinds kinds(const AnyModel& model, const PathRunOptions& path_options) const {
     return joined({{kind_if(pair_files.empty(), made_pairs, "without --pair", "with --pair")},
                    setup.kinds(!pair_files.empty()),
                    system.kinds(model, pair_files.empty() && setup.generates_start()),
-                   path.kinds(of_method),
+                   path.kinds(path_options),
                    {common.folder_kind()}});
   }
 };
@@ -51,37 +51,41 @@ void add_mean(Json& json, const std::vector<PathResult>& paths) {
   json["standard_error"] = estimate.error ? Json(*estimate.error) : Json();
 }
 
-void write_trace(std::ostream& out, const PathResult& path, const PathMethod& method) {
+// The share of direct steps since the row before is one of steps, or of their length where they are adaptive.
+void write_trace(std::ostream& out, const PathResult& path, const PathRunOptions& options) {
   fmt::print(out, "step,length,distance_to_goal,{},direct_fraction,participation_ratio\n",
-             method.is_hard ? "moved_particles" : "energy");
+             options.method->is_hard ? "moved_particles" : "energy");
+  const auto all = options.stepping == Stepping::adaptive ? PathRecorder::length : PathRecorder::step;
   const DecimatedTrace& trace = path.trace;
-  double step_before = 0.0, direct_before = 0.0;
+  double all_before = 0.0, direct_before = 0.0;
   for (std::size_t r = 0; r < trace.rows(); ++r) {
-    const double step = trace.at(r, PathRecorder::step), direct = trace.at(r, PathRecorder::direct_steps);
-    fmt::print(out, "{:.0f},{},{},{},{},{}\n", step, trace.at(r, PathRecorder::length), trace.at(r, PathRecorder::distance),
-               trace.at(r, PathRecorder::energy), (direct - direct_before) / (step - step_before),
+    const double direct = trace.at(r, PathRecorder::direct);
+    fmt::print(out, "{:.0f},{},{},{},{},{}\n", trace.at(r, PathRecorder::step), trace.at(r, PathRecorder::length),
+               trace.at(r, PathRecorder::distance), trace.at(r, PathRecorder::energy),
+               (direct - direct_before) / (trace.at(r, all) - all_before),
                trace.at(r, PathRecorder::participation) / static_cast<double>(path.frames.front().size()));
-    step_before = step;
+    all_before = trace.at(r, all);
     direct_before = direct;
   }
 }
 
-void write_files(OutputFolder& folder, const std::vector<PathResult>& paths, const PathMethod& method, const Mixture& model) {
+void write_files(OutputFolder& folder, const std::vector<PathResult>& paths, const PathRunOptions& options, const Mixture& model) {
   folder.write("paths.csv", [&](std::ostream& out) {
     fmt::print(out,
-               "path,outcome,length,distance,ratio_squared,participation_ratio,direct_steps,{}_steps,evaluations,seconds,"
-               "landscape_energy,largest_violation,reversed\n",
-               method.word);
+               "path,outcome,length,distance,ratio_squared,participation_ratio,direct_steps,{0}_steps,direct_length,{0}_length,"
+               "evaluations,seconds,landscape_energy,largest_violation,reversed\n",
+               options.method->word);
     for (std::size_t k = 0; k < paths.size(); ++k) {
       const PathResult& p = paths[k];
-      fmt::print(out, "{},{},{},{},{},{},{},{},{},{},{},{},{}\n", k + 1, to_string(p.outcome), p.length, p.distance,
+      fmt::print(out, "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", k + 1, to_string(p.outcome), p.length, p.distance,
                  p.ratio_squared(), p.participation_number / static_cast<double>(p.frames.front().size()), p.direct_steps,
-                 p.detour_steps, p.evaluations, p.seconds, p.landscape_energy, p.largest_violation, p.reversed ? 1 : 0);
+                 p.detour_steps, p.direct_length, p.detour_length, p.evaluations, p.seconds, p.landscape_energy,
+                 p.largest_violation, p.reversed ? 1 : 0);
     }
   });
   for (std::size_t k = 0; k < paths.size(); ++k) {
     const PathResult& p = paths[k];
-    folder.write(fmt::format("path-{:04}-trace.csv", k + 1), [&](std::ostream& out) { write_trace(out, p, method); });
+    folder.write(fmt::format("path-{:04}-trace.csv", k + 1), [&](std::ostream& out) { write_trace(out, p, options); });
     write_path_files(folder, k, p, model);
   }
 }
@@ -141,7 +145,7 @@ std::optional<double> radius_factor(const PathState& state, const std::vector<Co
 
 // Resolves and checks everything the run needs, before there is a folder.
 PathInput prepare(PathState& state, Options& options, const AnyModel& model, const PathRunOptions& path_options, Isa isa) {
-  options.settle(state.kinds(model, *path_options.method));
+  options.settle(state.kinds(model, path_options));
   state.path.settle(path_options, model);
   const bool makes_pairs = state.pair_files.empty();
   if (makes_pairs) state.setup.settle(model);
@@ -173,7 +177,7 @@ Json run_path(PathState& state, Options& options, int& status) {
   const bool all_reached = add_paths(result, paths, *path_options.method, mixture_of(model)) && ends.all;
   add_system(result, state.system, model, radius_factor(state, ends.pairs), isa);
   status = all_reached ? done : goal_not_reached;
-  if (folder.exists()) write_files(folder, paths, *path_options.method, mixture_of(model));
+  if (folder.exists()) write_files(folder, paths, path_options, mixture_of(model));
   write_result(folder, "path", options.resolved(), result);
   if (state.plot) draw_plots(folder.path(), status);
   return result;

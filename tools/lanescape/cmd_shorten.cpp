@@ -41,9 +41,9 @@ struct ShortenState {
   ShortenOptions run_options(const AnyModel& model) const {
     return {&shorten_method(method), path.run_options(model, common.threads, system.resolve_precision()), starts, common.seed};
   }
-  RunKinds kinds(const AnyModel& model, const PathMethod& of_method) const {
+  RunKinds kinds(const AnyModel& model, const PathRunOptions& search) const {
     return joined({system.kinds(model, false),
-                   path.kinds(of_method),
+                   path.kinds(search),
                    {common.folder_kind(), kind_if(checked_file.empty(), shortening_runs, "without --check", "with --check"),
                     kind_if(checked_file.empty() || !is_path_file(checked_file), own_models, "with frames or without --check",
                             fmt::format("with {}", checked_file))}});
@@ -137,7 +137,9 @@ void write_files(OutputFolder& folder, const ShortenResult& result, const Shorte
 
 Json run_path_check(ShortenState& state, Options& options, Isa isa) {
   const PathFile path = read_whole_path(state.checked_file, state.system.resolve());
-  options.settle(state.kinds(path.model, default_path_method(is_hard(path.model))));
+  PathRunOptions none;  // a check searches no path
+  none.method = &default_path_method(is_hard(path.model));
+  options.settle(state.kinds(path.model, none));
   const Json result = check_file(state.checked_file, path, state.pair_file, state.overlap_tolerance, isa, state.common.threads);
   OutputFolder folder = open_folder(state.common);
   write_result(folder, "shorten", options.resolved(), result);
@@ -152,7 +154,7 @@ Json run_shortening(ShortenState& state, Options& options, int& status) {
   const AnyModel model = state.system.resolve();
   const ShortenOptions shorten_options = state.run_options(model);
   const PathMethod& path_method = *shorten_options.search.method;
-  options.settle(state.kinds(model, path_method));
+  options.settle(state.kinds(model, shorten_options.search));
   shorten_options.check(model);
   state.path.settle(shorten_options.search, model);
   const ShortenInput input = read_input(state, model, shorten_options.search, isa);

@@ -80,6 +80,7 @@ Options::Options(CLI::App& program, const std::string& name, const std::string& 
 template <class T>
 Options::Entry& Options::keep(CLI::Option* option, const std::string& key, T& value) {
   Entry& entry = entries_.emplace_back();
+  entry.app = app_;
   entry.option = option;
   entry.write = [key, &value](toml::table& table) { program::write(table, key, value); };
   if (!group_.empty()) entry.needs.push_back(group_);
@@ -142,6 +143,11 @@ Options::Entry& Options::Entry::refused(std::string reason) {
 
 Options::Entry& Options::Entry::required() {
   option->required();
+  return *this;
+}
+
+Options::Entry& Options::Entry::excludes(const std::string& other) {
+  option->excludes(app->get_option(other));
   return *this;
 }
 

@@ -65,11 +65,14 @@ class Options {
     // The subcommand does not use the option, which belongs to a group that it shares with others: hidden, and always refused.
     Entry& refused(std::string reason);
     Entry& required();
+    // Not together with that option, which was added before.
+    Entry& excludes(const std::string& other);
     // Other words for --help, where a subcommand means something else by an option that it shares with others.
     Entry& described(const std::string& description);
 
    private:
     friend class Options;
+    CLI::App* app;
     CLI::Option* option;
     std::function<void(toml::table&)> write;
     std::vector<std::vector<Scope>> needs;

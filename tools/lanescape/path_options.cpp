@@ -10,8 +10,9 @@ namespace lanescape::program {
 namespace {
 
 // Options that depend on the method.
-constexpr Scope direct_steps_of_a_length{"direct steps", "contour, escape and avoidance: the steps of away end at contacts"};
-constexpr Scope collision_avoidance{"method", "method avoidance"};
+constexpr Scope direct_steps_of_a_length{"direct steps",
+                                         "faithful contour, escape and avoidance: other steps have no given length"};
+constexpr Scope collision_avoidance{"method", "faithful method avoidance"};
 
 }  // namespace
 
@@ -20,6 +21,8 @@ void PathOptions::add_to(Options& options, const std::string& method_option) {
               fmt::format("{}; {} for hard spheres [{}, {}]", path_method_words(false, " or "), path_method_words(true, " or "),
                           default_path_method(false).word, default_path_method(true).word));
   options.add_synonym_of_default("--faithful", "steps exactly as published (the default)");
+  options.add_flag("--adaptive", adaptive_, "steps as long as an estimate of their error allows: the same path in fewer steps")
+      .excludes("--faithful");
   options.add("--step", step_, "length of a direct step in 3N space [sigma] [0.001; hard spheres 0.01; see FORMATS.md, Units]")
       .only_for({direct_steps_of_a_length});
   options.add("--avoidance-step", avoidance_step_, "of each particle that moves in a collision-avoidance step [sigma] [0.0001]")
@@ -34,6 +37,7 @@ PathRunOptions PathOptions::run_options(const AnyModel& model, int threads, Prec
   PathRunOptions options;
   options.method = method_ ? &path_method(*method_) : &default_path_method(is_hard(model));
   check_method(*options.method, model);
+  options.stepping = adaptive_ ? Stepping::adaptive : Stepping::faithful;
   options.direct_step = step_;
   options.avoidance_step = avoidance_step_;
   if (fictitious_) options.fictitious = parse_contact_potential(*fictitious_);
@@ -45,16 +49,17 @@ PathRunOptions PathOptions::run_options(const AnyModel& model, int threads, Prec
   return options;
 }
 
-RunKinds PathOptions::kinds(const PathMethod& method) const {
-  const std::string with = fmt::format("with method {}", method.word);
-  return {kind_if(method.word == std::string_view("avoidance"), collision_avoidance, with, with),
-          kind_if(method.direct_step.has_value(), direct_steps_of_a_length, with, with)};
+RunKinds PathOptions::kinds(const PathRunOptions& options) const {
+  const std::string with = fmt::format("with method {}{}", options.method->word, adaptive_ ? " and --adaptive" : "");
+  const bool avoids = options.stepping == Stepping::faithful && options.method->word == std::string_view("avoidance");
+  return {kind_if(avoids, collision_avoidance, with, with),
+          kind_if(options.has_step_length(), direct_steps_of_a_length, with, with)};
 }
 
 void PathOptions::settle(const PathRunOptions& options, const AnyModel& model) {
   options.check(model);
   method_ = options.method->word;
-  if (options.method->direct_step) step_ = options.step_length(model);
+  if (options.has_step_length()) step_ = options.step_length(model);
 }
 
 }  // namespace lanescape::program

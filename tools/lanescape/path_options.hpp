@@ -15,8 +15,8 @@ class PathOptions {
   void add_to(Options& options, const std::string& method_option);
   // `frames` [100] is added apart: subcommands count different configurations.
   PathRunOptions run_options(const AnyModel& model, int threads, Precision precision) const;
-  // What the method makes of the run.
-  RunKinds kinds(const PathMethod& method) const;
+  // What the method and its steps make of the run.
+  RunKinds kinds(const PathRunOptions& options) const;
   // Checks the options, and fills in those that were not given, so that the resolved run file has them.
   void settle(const PathRunOptions& options, const AnyModel& model);
 
@@ -24,6 +24,7 @@ class PathOptions {
 
  private:
   std::optional<std::string> method_, fictitious_;
+  bool adaptive_ = false;
   std::optional<double> step_, avoidance_step_, landscape_energy_;
   std::uint64_t max_steps_ = FinderOptions{}.max_steps;
 };

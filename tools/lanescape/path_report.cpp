@@ -17,7 +17,8 @@ void write_histograms(std::ostream& out, const PathResult& path) {
   out << "quantity,value,steps\n";
   for (const StepHistogram& h : path.histograms)
     for (std::size_t k = 0; k < h.counts.size(); ++k)
-      if (h.counts[k] > 0) fmt::print(out, "{},{:.10g},{}\n", h.quantity, h.first + static_cast<double>(k) * h.width, h.counts[k]);
+      if (h.counts[k] > 0.0)
+        fmt::print(out, "{},{:.10g},{}\n", h.quantity, h.first + static_cast<double>(k) * h.width, h.counts[k]);
 }
 
 void write_particles(std::ostream& out, const PathResult& path, const Mixture& model) {
@@ -40,6 +41,7 @@ Json path_json(const PathResult& path, const PathMethod& method, const Mixture& 
   json["ratio_squared"] = complete ? Json(path.ratio_squared()) : Json();
   json["participation_ratio"] = path.participation_number / particles;
   json["steps"] = {{"direct", path.direct_steps}, {method.word, path.detour_steps}};
+  json["lengths"] = {{"direct", path.direct_length}, {method.word, path.detour_length}};
   json["corrections"] = path.corrections;
   json["evaluations"] = path.evaluations;
   json["seconds"] = path.seconds;

@@ -60,8 +60,8 @@ def insert(model: _core.Model, species: "ArrayLike | None", positions: ArrayLike
 
 
 def find_path(landscape: Any, start: ArrayLike, finish: ArrayLike, *, species: "ArrayLike | None" = None, box: "ArrayLike | None" = None,
-              diameters: "ArrayLike | None" = None, masses: "ArrayLike | None" = None, method: "str | None" = None, step: "float | None" = None,
-              avoidance_step: "float | None" = None, fictitious: str = "harmonic", landscape_energy: "float | None" = None,
+              diameters: "ArrayLike | None" = None, masses: "ArrayLike | None" = None, method: "str | None" = None, adaptive: bool = False,
+              step: "float | None" = None, avoidance_step: "float | None" = None, fictitious: str = "harmonic", landscape_energy: "float | None" = None,
               reverse: bool = False, max_steps: int = 1_000_000_000, patience: int = 1000, frames: int = 100, threads: int = 1,
               precision: str = "double", instruction_set: str = "auto",
               progress: "Callable[[float], bool | None] | None" = None) -> Path:
@@ -74,7 +74,8 @@ def find_path(landscape: Any, start: ArrayLike, finish: ArrayLike, *, species: "
     masses: of a landscape's particles, (N,), None for equal ones; a model has its own.
 
     method: contour or escape for energies, avoidance or away for hard spheres; None: the first of the family.
-    step: length of a direct step in 3N space; avoidance_step: of each sphere in an avoidance step; in units of length. None: the
+    adaptive: for contour: steps as long as an estimate of their error allows, the same path in a thirtieth of the evaluations.
+    step: length of a direct step in 3N space, where steps are not adaptive; avoidance_step: of each sphere in an avoidance step; in units of length. None: the
     method's own, in the unit of length of the model or of the potential.
     fictitious: force between overlapping spheres in an avoidance step, harmonic, linear or cubic.
     landscape_energy: E_L, in units of energy; None: the higher of the two ends.
@@ -86,7 +87,7 @@ def find_path(landscape: Any, start: ArrayLike, finish: ArrayLike, *, species: "
 
     Raises InputError for ends that differ, coincide, overlap or lie above E_L. Exceptions of a landscape pass through.
     """
-    options = {"method": method, "step": step, "avoidance_step": avoidance_step, "fictitious": fictitious, "landscape_energy": landscape_energy,
+    options = {"method": method, "adaptive": adaptive, "step": step, "avoidance_step": avoidance_step, "fictitious": fictitious, "landscape_energy": landscape_energy,
                "reverse": reverse, "max_steps": max_steps, "patience": patience, "frames": frames, "threads": threads, "precision": precision,
                "instruction_set": instruction_set, "progress": progress}
     for name in ("method", "step", "avoidance_step", "landscape_energy", "progress"):

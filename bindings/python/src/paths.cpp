@@ -47,6 +47,7 @@ PathSettings settings_of(const nb::dict& given) {
       throw nb::type_error((std::string("find_path: ") + name + " cannot be " + text(nb::repr(nb::object(given[name])))).c_str());
   };
   take("method", settings.method);
+  take("adaptive", settings.adaptive);
   take("step", settings.step);
   take("avoidance_step", settings.avoidance_step);
   take("fictitious", settings.fictitious);

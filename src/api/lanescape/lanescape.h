@@ -332,7 +332,7 @@ typedef struct lanescape_landscape {
 typedef struct lanescape_path_settings {
   size_t size;
   const char* method;              // contour or escape (soft), avoidance or away (hard spheres); NULL: the first of the family
-  double step;                     // length of a direct step in 3N space; 0: the method's own, in the model's unit of length
+  double step;                     // not adaptive: length of a direct step in 3N space; 0: the method's own, in the model's unit of length
   double avoidance_step;           // of each sphere that an avoidance step moves; 0: 1e-4 of that unit
   const char* fictitious;          // force between overlapping spheres in an avoidance step: harmonic, linear, cubic
   const double* landscape_energy;  // E_L; NULL: the higher of the two ends
@@ -345,6 +345,7 @@ typedef struct lanescape_path_settings {
   const char* instruction_set;     // auto, or a word of lanescape_instruction_set()
   lanescape_progress progress;     // or NULL
   void* progress_user;
+  int adaptive;  // contour: steps as long as an estimate of their error allows, the same path in fewer evaluations, 0
 } lanescape_path_settings;
 
 typedef struct lanescape_path_summary {

@@ -115,6 +115,23 @@ TEST(FindPath, WalksAroundAWallOfTheHost) {
   EXPECT_GT(wall.evaluations, 0);
 }
 
+TEST(FindPath, WithAdaptiveStepsIsTheSamePathInFewerEvaluations) {
+  Wall wall;
+  OfAHost host;
+  Potential potential(Model::named("lennard-jones"), two, cube);
+  const std::vector<double> left = {-2.0, 0.0, 0.0}, right = {2.0, 0.0, 0.0};
+  const auto expect_fewer = [](Landscape& landscape, std::span<const double> from, std::span<const double> to) {
+    const Path faithful = find_path(landscape, from, to, {}), adaptive = find_path(landscape, from, to, {.adaptive = true});
+    EXPECT_TRUE(adaptive.reached()) << adaptive.reason;
+    EXPECT_NEAR(adaptive.length / faithful.length, 1.0, 2e-3);
+    EXPECT_LE(adaptive.largest_violation, 1e-3);
+    EXPECT_LT(10 * adaptive.evaluations, faithful.evaluations);
+  };
+  expect_fewer(wall, left, right);
+  expect_fewer(host, start, finish);
+  expect_fewer(potential, start, finish);
+}
+
 TEST(FindPath, WithMassesIsLongerInHeavyCoordinates) {
   Wall wall;
   const std::vector<double> left = {-2.0, 0.0, 0.0}, right = {2.0, 0.0, 0.0};
@@ -191,6 +208,8 @@ TEST(FindPath, RefusesWhatCannotBe) {
   EXPECT_NE(refused(start, finish, {.method = "away"}).find("method away is not for model lennard-jones"), std::string::npos);
   EXPECT_NE(refused(start, finish, {.landscape_energy = -5.0}).find("above the landscape energy -5"), std::string::npos);
   EXPECT_NE(refused(start, finish, {.step = -1.0}).find("step -1 is not allowed"), std::string::npos);
+  EXPECT_EQ(refused(start, finish, {.method = "escape", .adaptive = true}).rfind("method escape has no adaptive steps: ", 0), 0u);
+  EXPECT_EQ(refused(start, finish, {.adaptive = true, .step = 0.1}), "adaptive steps have no given length: without a step only");
   EXPECT_NE(refused(turned(0.1, 0.0), finish, {}).find("end points, first end: particles 0 and 1 overlap"), std::string::npos);
   Wall wall;
   EXPECT_EQ(refusal([&] { find_path(wall, std::vector<double>{1.0, std::nan(""), 0.0}, std::vector<double>{1.0, 0.0, 0.0}, {}); }),

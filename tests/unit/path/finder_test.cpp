@@ -180,7 +180,7 @@ TEST(PathFinder, RowsOfTheTraceAreOfTheStepsTheyName) {
     EXPECT_EQ(trace.at(row, PathRecorder::length), 0.25 * steps);
     EXPECT_EQ(trace.at(row, PathRecorder::distance), 1.0 - x);
     EXPECT_EQ(trace.at(row, PathRecorder::energy), hill.energy(hill.array({x, 0.0, 0.0})));
-    EXPECT_EQ(trace.at(row, PathRecorder::direct_steps), steps);
+    EXPECT_EQ(trace.at(row, PathRecorder::direct), steps);
     EXPECT_EQ(trace.at(row, PathRecorder::participation), 1.0);
   }
 }

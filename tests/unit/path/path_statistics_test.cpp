@@ -17,7 +17,7 @@ namespace {
 class Walk {
  public:
   Walk() : layout_({0, 0, 0}, 1), algebra_(kernel_table(choose_isa("auto"))), at_(layout_.dimension(), 0.0) {}
-  PathStatistics statistics() const { return {layout_.slots(), layout_.size()}; }
+  PathStatistics statistics(Stepping stepping = Stepping::faithful) const { return {layout_.slots(), layout_.size(), stepping}; }
   void step(PathStatistics& statistics, const std::vector<double>& by) { statistics.add_step(algebra_, at_, move(by)); }
   void hop(PathStatistics& statistics, const std::vector<double>& by) { statistics.add_hop(algebra_, at_, move(by)); }
   std::size_t slot(std::size_t particle) const { return layout_.slot_of(particle); }
@@ -78,7 +78,7 @@ TEST(PathStatistics, HistogramsCountStepsAndNotTheHop) {
   walk.step(statistics, {0.0, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
   walk.hop(statistics, even);
   // The values of n are 1, 625/337 = 1.85 and 3, in the bins up to 1, up to 2 and up to 3.
-  EXPECT_EQ(statistics.participation_histogram(), (std::vector<std::uint64_t>{1, 1, 1}));
+  EXPECT_EQ(statistics.participation_histogram(), (std::vector<double>{1, 1, 1}));
 }
 
 TEST(PathStatistics, TheAlphaTwoOfAStepIsThatOfItsDisplacements) {
@@ -88,10 +88,21 @@ TEST(PathStatistics, TheAlphaTwoOfAStepIsThatOfItsDisplacements) {
   walk.step(statistics, {0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0});
   walk.step(statistics, {1.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0});
   // 1.8/n - 1 for n = 625/337, 2 and 25/17 is -0.03, -0.1 and 0.22; the bins have width 0.2 and start at -1.
-  std::vector<std::uint64_t> expected(PathStatistics::alpha2_bins, 0);
+  std::vector<double> expected(PathStatistics::alpha2_bins, 0);
   expected[4] = 2;
   expected[6] = 1;
   EXPECT_EQ(statistics.alpha2_histogram(), expected);
+}
+
+TEST(PathStatistics, AdaptiveStepsCountWithTheirLength) {
+  Walk walk;
+  PathStatistics statistics = walk.statistics(Stepping::adaptive);
+  walk.step(statistics, uneven);
+  walk.step(statistics, even);
+  walk.step(statistics, {0.0, 0.25, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
+  walk.step(statistics, {0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
+  walk.hop(statistics, even);
+  EXPECT_EQ(statistics.participation_histogram(), (std::vector<double>{0.75, 5.0, std::sqrt(3.0)}));
 }
 
 TEST(PathStatistics, AHopOfNoLengthChangesNothing) {

@@ -59,6 +59,7 @@ void expect_same_bits(const PathResult& a, const PathResult& b) {
   EXPECT_EQ(a.detour_steps, b.detour_steps);
   EXPECT_EQ(a.evaluations, b.evaluations);
   EXPECT_EQ(a.corrections, b.corrections);
+  EXPECT_EQ(a.detour_length, b.detour_length);
   EXPECT_EQ(a.largest_violation, b.largest_violation);
   EXPECT_EQ(a.particle_lengths, b.particle_lengths);
   ASSERT_EQ(a.frames.size(), b.frames.size());
@@ -105,6 +106,53 @@ TEST_P(PathRunBy, InterruptedAndResumedEndsWithTheSameBits) {
     expect_same_bits(resumed, whole);
     expect_same_bits(again, whole);  // the run is already finished
     EXPECT_EQ(again.seconds, resumed.seconds);
+  }
+}
+
+// Adaptive steps, in all methods that have them.
+class AdaptivePathRunBy : public ::testing::TestWithParam<std::string> {
+ protected:
+  AdaptivePathRunBy() {
+    adaptive_.options.stepping = Stepping::adaptive;
+    adaptive_.options.direct_step = adaptive_.options.avoidance_step = std::nullopt;
+  }
+  Method faithful_{GetParam().c_str()}, adaptive_{GetParam().c_str()};
+};
+std::vector<std::string> adaptive_methods() {
+  std::vector<std::string> words;
+  for (const PathMethod& method : path_methods())
+    if (method.begin_adaptive != nullptr) words.emplace_back(method.word);
+  return words;
+}
+INSTANTIATE_TEST_SUITE_P(EveryMethod, AdaptivePathRunBy, ::testing::ValuesIn(adaptive_methods()),
+                         [](const auto& tested) { return tested.param; });
+
+TEST_P(AdaptivePathRunBy, LeadsFromOneEndToTheOtherInFewerSteps) {
+  const PathResult faithful = faithful_.result(), path = adaptive_.result();
+  ASSERT_EQ(path.outcome, Outcome::reached) << path.reason;
+  EXPECT_GT(path.detour_steps, 0u);
+  EXPECT_LT(10 * path.evaluations, faithful.evaluations);
+  EXPECT_LE(path.length, 1.002 * faithful.length);
+  EXPECT_NEAR(path.direct_length + path.detour_length, path.length, 1e-12);
+  EXPECT_EQ(path.frames.front().positions, adaptive_.pair.start.positions);
+  EXPECT_EQ(path.frames.back().positions, adaptive_.pair.finish.positions);
+  EXPECT_LE(path.largest_violation, 1e-3);
+}
+
+TEST_P(AdaptivePathRunBy, ResumedFromACheckpointIsFinishedAlike) {
+  const PathResult whole = adaptive_.result();
+  const testing::TemporaryFolder folder;
+  expect_same_bits(adaptive_.result({folder.path(), false}), whole);
+  expect_same_bits(adaptive_.result({folder.path(), true}), whole);
+}
+
+TEST_P(AdaptivePathRunBy, CountsStepsWithTheirLengthInItsHistograms) {
+  const PathResult path = adaptive_.result();
+  for (const StepHistogram& histogram : path.histograms) {
+    if (histogram.quantity != "participation_ratio" && histogram.quantity != "alpha_2") continue;
+    double sum = 0.0;
+    for (const double count : histogram.counts) sum += count;
+    EXPECT_NEAR(sum, path.length, 1e-8) << histogram.quantity;
   }
 }
 
@@ -163,9 +211,9 @@ TEST(PathRun, CountsEveryStepInItsHistograms) {
   const auto counted = [&](const std::string& quantity) {
     for (const StepHistogram& histogram : path.histograms)
       if (histogram.quantity == quantity) {
-        std::uint64_t sum = 0;
-        for (const std::uint64_t count : histogram.counts) sum += count;
-        return sum;
+        double sum = 0.0;
+        for (const double count : histogram.counts) sum += count;
+        return static_cast<std::uint64_t>(sum);
       }
     ADD_FAILURE() << quantity;
     return std::uint64_t{0};
@@ -238,6 +286,11 @@ TEST(PathRun, RefusesOptionsOutOfRange) {
             "hard spheres have no landscape energy: without it only");
   EXPECT_EQ(refused("contour", [](PathRunOptions& o) { o.landscape_energy = HUGE_VAL; }),
             "landscape energy inf is not allowed: it must be finite");
+  EXPECT_EQ(
+      refused("escape", [](PathRunOptions& o) { o.stepping = Stepping::adaptive; }).rfind("method escape has no adaptive steps", 0),
+      0u);
+  EXPECT_EQ(refused("contour", [](PathRunOptions& o) { o.stepping = Stepping::adaptive; }),
+            "adaptive steps have no given length: without a step only");
   EXPECT_EQ(refused("contour", [](PathRunOptions& o) { o.finder.max_steps = 0; }), "the step limit must be at least 1");
   EXPECT_EQ(refused("contour", [](PathRunOptions& o) { o.finder.frames = 100'001; }),
             "100001 frames are not allowed: at most 100000");
