@@ -137,9 +137,9 @@ void write_files(OutputFolder& folder, const ShortenResult& result, const Shorte
 
 Json run_path_check(ShortenState& state, Options& options, Isa isa) {
   const PathFile path = read_whole_path(state.checked_file, state.system.resolve());
-  PathRunOptions none;  // a check searches no path
-  none.method = &default_path_method(is_hard(path.model));
-  options.settle(state.kinds(path.model, none));
+  PathRunOptions unused;  // paths are found by none of them
+  unused.method = &default_path_method(is_hard(path.model));
+  options.settle(state.kinds(path.model, unused));
   const Json result = check_file(state.checked_file, path, state.pair_file, state.overlap_tolerance, isa, state.common.threads);
   OutputFolder folder = open_folder(state.common);
   write_result(folder, "shorten", options.resolved(), result);

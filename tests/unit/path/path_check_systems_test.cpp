@@ -9,16 +9,16 @@
 #include "landscape/kinematic_landscape.hpp"
 #include "landscape/pair_landscape.hpp"
 #include "path/path_check.hpp"
-#include "two_sphere_geodesic.hpp"
+#include "two_sphere_path.hpp"
 
 namespace lanescape {
 namespace {
 
-using testing::TwoSphereGeodesic;
+using testing::TwoSpherePath;
 
 constexpr double degree = std::numbers::pi / 180.0;
 const Box box{{20.0, 21.0, 22.0}};
-const TwoSphereGeodesic first{3.0, 3.0, 170 * degree}, second{2.0, 3.5, 150 * degree};
+const TwoSpherePath first{3.0, 3.0, 170 * degree}, second{2.0, 3.5, 150 * degree};
 
 // Spheres of diameter 1 of two species, whose masses may differ, soft at E_L = u(1) or hard.
 PairModel mixture(double mass) {

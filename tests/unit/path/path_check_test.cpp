@@ -11,16 +11,16 @@
 #include "landscape/pair_landscape.hpp"
 #include "path/polyline.hpp"
 #include "refusal.hpp"
-#include "two_sphere_geodesic.hpp"
+#include "two_sphere_path.hpp"
 
 namespace lanescape {
 namespace {
 
-using testing::TwoSphereGeodesic;
+using testing::TwoSpherePath;
 
 constexpr double degree = std::numbers::pi / 180.0;
 const Point centre{3.0, -2.0, 11.0};  // unwrapped: outside the box
-const TwoSphereGeodesic examples[] = {
+const TwoSpherePath examples[] = {
     {3.0, 3.0, 170 * degree}, {3.0, 2.0, 150 * degree}, {1.5, 4.0, 179 * degree}, {2.0, 2.0, 125 * degree}};
 
 // Two spheres of diameter 1 that may not come nearer than that: hard ones, or those of Weeks, Chandler and Andersen at E_L = u(1).
@@ -39,7 +39,7 @@ struct Pair {
     if (hard) return check_path(HardSpherePath{box, layout, radii, metric, choose_isa("auto")}, nodes, options);
     return check_path([&] { return landscape(); }, landscape_energy, nodes, options);
   }
-  Polyline geodesic(const TwoSphereGeodesic& example, std::size_t nodes) const {
+  Polyline geodesic(const TwoSpherePath& example, std::size_t nodes) const {
     return testing::two_particle_path(layout, nodes, centre, [&](double t) { return example.geodesic(t); });
   }
 };
@@ -54,7 +54,7 @@ class PathCheckOf : public ::testing::TestWithParam<bool> {
 INSTANTIATE_TEST_SUITE_P(Kind, PathCheckOf, ::testing::Bool(), [](const auto& tested) { return tested.param ? "hard" : "soft"; });
 
 TEST_P(PathCheckOf, TheGeodesicOfTwoSpheresIsStationaryAndHasTheLengthOfTheFormula) {
-  for (const TwoSphereGeodesic& example : examples) {
+  for (const TwoSpherePath& example : examples) {
     for (const std::size_t nodes : {101u, 401u, 1601u}) {
       const PathCheck found = check(pair_.geodesic(example, nodes));
       const double h = example.length() / static_cast<double>(nodes - 1);
@@ -69,7 +69,7 @@ TEST_P(PathCheckOf, TheGeodesicOfTwoSpheresIsStationaryAndHasTheLengthOfTheFormu
 }
 
 TEST_P(PathCheckOf, MultipliersAreTheCurvatureTimesTheSpacingOnTheArcAndZeroOffIt) {
-  const TwoSphereGeodesic& example = examples[0];
+  const TwoSpherePath& example = examples[0];
   const PathCheck found = check(pair_.geodesic(example, 801));
   const double h = example.length() / 800.0, first = example.free_begin() / h, last = 800.0 - example.free_end() / h;
   ASSERT_EQ(found.multipliers.size(), 801u);
@@ -86,8 +86,8 @@ TEST_P(PathCheckOf, MultipliersAreTheCurvatureTimesTheSpacingOnTheArcAndZeroOffI
 
 // The multipliers of a constrained minimum are its derivative by the constraints: the length by the diameter, or by E_L.
 TEST_P(PathCheckOf, MultipliersAddUpToTheChangeOfTheShortestLengthWithTheBoundary) {
-  for (const TwoSphereGeodesic& example : examples) {
-    TwoSphereGeodesic larger = example, smaller = example;
+  for (const TwoSpherePath& example : examples) {
+    TwoSpherePath larger = example, smaller = example;
     larger.s += 1e-5;
     smaller.s -= 1e-5;
     const double by_diameter = (larger.length() - smaller.length()) / 2e-5 / std::sqrt(2.0);
@@ -99,7 +99,7 @@ TEST_P(PathCheckOf, MultipliersAddUpToTheChangeOfTheShortestLengthWithTheBoundar
 }
 
 TEST_P(PathCheckOf, AGreedySlideIsNotStationary) {
-  const TwoSphereGeodesic& example = examples[0];
+  const TwoSpherePath& example = examples[0];
   const PathCheck found =
       check(testing::two_particle_path(pair_.layout, 1001, centre, [&](double t) { return example.greedy(t); }));
   EXPECT_GT(found.kuhn_tucker_residual, 0.5);
@@ -108,7 +108,7 @@ TEST_P(PathCheckOf, AGreedySlideIsNotStationary) {
 
 TEST_P(PathCheckOf, AStraightLineHasNoResidual) {
   for (const std::size_t nodes : {3u, 17u, 1001u}) {
-    const auto line = [](double t) { return TwoSphereGeodesic::between({3.0, 1.5, 0.2}, {-2.9, 1.7, 0.1}, t); };
+    const auto line = [](double t) { return TwoSpherePath::between({3.0, 1.5, 0.2}, {-2.9, 1.7, 0.1}, t); };
     const PathCheck found = check(testing::two_particle_path(pair_.layout, nodes, centre, line));
     EXPECT_EQ(found.kuhn_tucker_residual, 0.0);
     EXPECT_EQ(found.largest_violation, 0.0);
@@ -117,8 +117,8 @@ TEST_P(PathCheckOf, AStraightLineHasNoResidual) {
 
 TEST_P(PathCheckOf, ABendInTheOpenIsNotStationary) {
   const auto bent = [](double t) {
-    return t < 0.5 ? TwoSphereGeodesic::between({3.0, 1.5, 0.0}, {0.0, 3.0, 0.0}, 2 * t)
-                   : TwoSphereGeodesic::between({0.0, 3.0, 0.0}, {-3.0, 1.5, 0.0}, 2 * t - 1);
+    return t < 0.5 ? TwoSpherePath::between({3.0, 1.5, 0.0}, {0.0, 3.0, 0.0}, 2 * t)
+                   : TwoSpherePath::between({0.0, 3.0, 0.0}, {-3.0, 1.5, 0.0}, 2 * t - 1);
   };
   EXPECT_NEAR(check(testing::two_particle_path(pair_.layout, 101, centre, bent)).kuhn_tucker_residual, 1.0, 1e-6);
 }
@@ -130,7 +130,7 @@ void expect_same(const PathCheck& a, const PathCheck& b) {
 }
 
 TEST_P(PathCheckOf, DependsNeitherOnDirectionNorOnAxesNorOnTheOrderOfParticles) {
-  const TwoSphereGeodesic& example = examples[1];
+  const TwoSpherePath& example = examples[1];
   const PathCheck found = check(pair_.geodesic(example, 301));
   EXPECT_GT(found.kuhn_tucker_residual, 1e-6);
   PathCheck back = check(reversed(pair_.geodesic(example, 301)));
@@ -139,7 +139,7 @@ TEST_P(PathCheckOf, DependsNeitherOnDirectionNorOnAxesNorOnTheOrderOfParticles) 
     EXPECT_NEAR(back.multipliers[300 - k], found.multipliers[k], 1e-9);
     EXPECT_NEAR(back.excess[300 - k], found.excess[k], 1e-9);
   }
-  const auto exchanged = [&](double t) { return TwoSphereGeodesic::between({}, example.geodesic(t), -1.0); };
+  const auto exchanged = [&](double t) { return TwoSpherePath::between({}, example.geodesic(t), -1.0); };
   expect_same(found, check(testing::two_particle_path(pair_.layout, 301, centre, exchanged)));
   const auto rotated = [&](double t) { return testing::turned(example.geodesic(t)); };
   expect_same(found, check(testing::two_particle_path(pair_.layout, 301, centre, rotated)));
@@ -158,7 +158,7 @@ TEST_P(PathCheckOf, ThreadsChangeNothing) {
 
 TEST_P(PathCheckOf, SeesASegmentThatCutsThroughBetweenTwoGoodNodes) {
   const auto through = [](double t) {
-    return TwoSphereGeodesic::between({2.0, 0.7, 0.0}, {-2.0, 0.7, 0.0}, t < 0.1 ? 0.0 : t > 0.9 ? 1.0 : 0.1);
+    return TwoSpherePath::between({2.0, 0.7, 0.0}, {-2.0, 0.7, 0.0}, t < 0.1 ? 0.0 : t > 0.9 ? 1.0 : 0.1);
   };
   const PathCheck found = check(testing::two_particle_path(pair_.layout, 3, centre, through));
   const double expected = GetParam() ? 0.3 : pair_.soft.derivatives(pair_.soft.numbers(0), 0.7).u - pair_.landscape_energy;

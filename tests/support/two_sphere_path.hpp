@@ -14,7 +14,7 @@ namespace lanescape::testing {
 
 // Two spheres in relative coordinates (PHYSICS 6): from distance a to distance b, at an angle, around a sphere of radius s. The
 // geodesic is a tangent, an arc and a tangent.
-struct TwoSphereGeodesic {
+struct TwoSpherePath {
   double a, b, angle, s = 1.0;
 
   double free_begin() const { return std::sqrt(a * a - s * s); }
