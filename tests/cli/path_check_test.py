@@ -63,6 +63,7 @@ class PathCheck(InterruptionTest):
         out = self.folder / "out"
         result = self.done("shorten", "--check", WHOLE, "--out", out)
         self.assertEqual(result, one_object((out / "result.json").read_text()))
+        self.assertIsNone(result["length_before"])
         self.assertEqual((result["model"], result["method"], result["nodes"]), ("hard-sphere", "geodesic", 201))
         self.assertAlmostEqual(result["length"], 6.1620 / math.sqrt(2), delta=1e-4)
         self.assertLess(result["kuhn_tucker_residual"], 1e-3)

@@ -38,6 +38,7 @@ Json check_file(const std::string& file, const PathFile& path, const std::string
   const CheckedPath found = checked(file, path, isa, threads);
   clock.lap();
   Json json;
+  json["length_before"] = nullptr;  // nothing was shortened
   json["length"] = found.check.length;
   json["distance"] = found.distance;
   json["ratio_squared"] = found.ratio_squared();
