@@ -10,48 +10,10 @@
 #include "core/option_checks.hpp"
 #include "core/parallel.hpp"
 #include "path/bend.hpp"
+#include "path/segment_energies.hpp"
 
 namespace lanescape {
 namespace {
-
-// V along one segment, from its energies at equally spaced points, both ends among them.
-class SegmentEnergies {
- public:
-  SegmentEnergies(SoftLandscape& landscape, const Polyline& nodes, std::size_t samples)
-      : landscape_(&landscape), nodes_(&nodes), energies_(samples + 2), chord_(nodes.front().size(), 0.0), position_(chord_) {}
-
-  // The largest V on segment k, between ends of known V. Throws Error(bad_input) where V is not finite.
-  double largest(std::size_t k, double begin, double end) {
-    landscape_->algebra().difference(chord_, (*nodes_)[k + 1], (*nodes_)[k]);
-    const std::size_t last = energies_.size() - 1;
-    energies_.front() = begin;
-    energies_.back() = end;
-    for (std::size_t s = 1; s < last; ++s) energies_[s] = energy_at(k, static_cast<double>(s) / static_cast<double>(last));
-    if (!std::all_of(energies_.begin(), energies_.end(), [](double v) { return std::isfinite(v); }))
-      throw_bad_input(fmt::format("the energy between nodes {} and {} of the path is not finite: particles meet", k, k + 1));
-    const auto highest = std::max_element(energies_.begin(), energies_.end());
-    const auto s = std::clamp<std::size_t>(static_cast<std::size_t>(highest - energies_.begin()), 1, last - 1);
-    const double vertex = offset_of_vertex(s);
-    if (!(std::abs(vertex) > 0.0 && std::abs(vertex) < 1.0)) return *highest;
-    return std::max(*highest, energy_at(k, (static_cast<double>(s) + vertex) / static_cast<double>(last)));
-  }
-
- private:
-  double energy_at(std::size_t k, double fraction) {
-    landscape_->algebra().axpy(position_, (*nodes_)[k], fraction, chord_);
-    return landscape_->energy(position_);
-  }
-  // Where the parabola through sample s and its neighbours is highest, in spacings from s; 0 where it has no maximum.
-  double offset_of_vertex(std::size_t s) const {
-    const double curvature = energies_[s - 1] - 2.0 * energies_[s] + energies_[s + 1];
-    return curvature < 0.0 ? 0.5 * (energies_[s - 1] - energies_[s + 1]) / curvature : 0.0;
-  }
-
-  SoftLandscape* landscape_;
-  const Polyline* nodes_;
-  std::vector<double> energies_;
-  AlignedArray chord_, position_;
-};
 
 // The certificate of a soft path, in parts that may run on threads.
 class SoftCheck {
@@ -65,12 +27,15 @@ class SoftCheck {
 
   // Of segments [begin, end): V on them and at the nodes they start from, and after the last one at the end of the path.
   void add_energies(SoftLandscape& landscape, std::size_t begin, std::size_t end) {
-    SegmentEnergies segment(landscape, *nodes_, options_->samples);
+    SegmentEnergies segment(landscape, options_->samples);
     double v = landscape.energy((*nodes_)[begin]);
     for (std::size_t k = begin; k < end; ++k) {
       check_.excess[k] = v - landscape_energy_;
       const double next = landscape.energy((*nodes_)[k + 1]);
-      check_.segment_violation[k] = segment.largest(k, v, next) - landscape_energy_;
+      const double largest = segment.largest((*nodes_)[k], v, (*nodes_)[k + 1], next);
+      if (!std::isfinite(largest))
+        throw_bad_input(fmt::format("the energy between nodes {} and {} of the path is not finite: particles meet", k, k + 1));
+      check_.segment_violation[k] = largest - landscape_energy_;
       v = next;
     }
     if (end + 1 == nodes_->size()) check_.excess[end] = v - landscape_energy_;

@@ -64,4 +64,16 @@ void check_polyline(const VectorAlgebra& algebra, const Polyline& nodes, std::si
   }
 }
 
+void exchange_nodes(Archive& archive, std::string_view name, Polyline& nodes) {
+  const std::size_t dimension = nodes.empty() ? 0 : nodes.front().size();
+  AlignedArray all(nodes.size() * dimension, 0.0);
+  if (!archive.reading())
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      std::copy(nodes[k].begin(), nodes[k].end(), all.begin() + static_cast<std::ptrdiff_t>(k * dimension));
+  archive.field(name, all);
+  if (!archive.reading()) return;
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(k * dimension), dimension, nodes[k].begin());
+}
+
 }  // namespace lanescape

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 #include <vector>
 
 #include "core/aligned_array.hpp"
+#include "core/archive.hpp"
 #include "dispatch/vector_algebra.hpp"
 
 namespace lanescape {
@@ -22,5 +24,8 @@ std::vector<AlignedArray> chord_tangents(const VectorAlgebra& algebra, const Pol
 // Throws Error(bad_input) for fewer than `least` nodes, nodes of different sizes, coordinates that are not finite, and neighbouring
 // nodes that coincide: the direction of their segment is not defined.
 void check_polyline(const VectorAlgebra& algebra, const Polyline& nodes, std::size_t least = 2);
+
+// Nodes of a known number and size, as one field.
+void exchange_nodes(Archive& archive, std::string_view name, Polyline& nodes);
 
 }  // namespace lanescape

@@ -1,0 +1,126 @@
+#include "path/shortening/soft_nodes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "path/segment_energies.hpp"
+
+namespace lanescape {
+namespace {
+
+constexpr int most_corrections = 60;
+
+}  // namespace
+
+SoftNodes::SoftNodes(const SoftLandscapeFactory& make_landscape, std::size_t nodes, int threads)
+    : blocks_(nodes, threads), scratch_(NodeBlocks::count) {
+  for (Block& block : scratch_) {
+    landscapes_.push_back(make_landscape());
+    block.position.assign(landscapes_.back()->dimension(), 0.0);
+    block.gradient = block.position;
+  }
+}
+
+std::uint64_t SoftNodes::evaluations() const {
+  std::uint64_t sum = 0;
+  for (const Block& block : scratch_) sum += block.evaluations;
+  return sum;
+}
+
+void SoftNodes::evaluate_node(Field& field, std::size_t k, std::size_t block) {
+  AlignedArray& normal = field.normals[k];
+  ++scratch_[block].evaluations;
+  field.energies[k] = landscapes_[block]->energy_and_gradient(field.nodes[k], normal);
+  field.slopes[k] = algebra().norm(normal);
+  // A flat point has no normal. Its node is free: nothing is divided by its slope.
+  const double scale = field.slopes[k] > 0.0 ? 1.0 / field.slopes[k] : 0.0;
+  for (double& component : normal) component *= scale;
+}
+
+void SoftNodes::evaluate(Field& field) {
+  for (const std::size_t end : {std::size_t{0}, field.nodes.size() - 1}) evaluate_node(field, end, 0);
+  blocks_.for_each_block([&](std::size_t block, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) evaluate_node(field, k, block);
+  });
+}
+
+bool SoftNodes::restore_node(Field& field, std::size_t k, std::size_t block, double level, double longest_correction) {
+  for (int correction = 0; correction < most_corrections; ++correction) {
+    const double excess = field.energies[k] - level;
+    if (excess <= 0.0) return true;
+    if (!std::isfinite(excess) || !(field.slopes[k] > 0.0)) return false;
+    // Slightly beyond the level, so that rounding does not leave the node above it.
+    const double step = std::min(1.000001 * excess / field.slopes[k] + 1e-12 * longest_correction, longest_correction);
+    algebra().axpy(field.nodes[k], field.nodes[k], -step, field.normals[k]);
+    evaluate_node(field, k, block);
+  }
+  return field.energies[k] <= level;
+}
+
+bool SoftNodes::restore(Field& field, const std::vector<double>& levels, double longest_correction) {
+  std::atomic<bool> restored = true;
+  blocks_.for_each_block([&](std::size_t block, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      if (!restore_node(field, k, block, levels[k], longest_correction)) restored = false;
+  });
+  return restored;
+}
+
+bool SoftNodes::move(Field& field, const Field& from, const Polyline& steps, const std::vector<double>& levels,
+                     double longest_correction) {
+  std::atomic<bool> moved = true;
+  blocks_.for_each_block([&](std::size_t block, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      algebra().axpy(field.nodes[k], from.nodes[k], 1.0, steps[k]);
+      evaluate_node(field, k, block);
+      if (!restore_node(field, k, block, levels[k], longest_correction)) moved = false;
+    }
+  });
+  return moved;
+}
+
+void SoftNodes::add_curvature(const Field& field, const Polyline& direction, const std::vector<double>& factors,
+                              double displacement, Polyline& out) {
+  blocks_.for_each_block([&](std::size_t block, std::size_t begin, std::size_t end) {
+    Block& scratch = scratch_[block];
+    for (std::size_t k = begin; k < end; ++k) {
+      const double length = factors[k] > 0.0 ? algebra().norm(direction[k]) : 0.0;
+      if (!(length > 0.0)) continue;
+      const double scale = displacement / length;
+      algebra().axpy(scratch.position, field.nodes[k], scale, direction[k]);
+      ++scratch.evaluations;
+      landscapes_[block]->gradient(scratch.position, scratch.gradient);
+      algebra().combine(out[k], out[k], factors[k] / scale, scratch.gradient, -factors[k] / scale * field.slopes[k],
+                        field.normals[k]);
+    }
+  });
+}
+
+std::vector<double> SoftNodes::segment_energies(const Field& field, std::size_t samples) {
+  std::vector<double> largest(field.nodes.size() - 1);
+  const auto energy = [&](std::size_t segment, std::size_t block) {
+    SegmentEnergies energies(*landscapes_[block], samples);
+    largest[segment] =
+        energies.largest(field.nodes[segment], field.energies[segment], field.nodes[segment + 1], field.energies[segment + 1]);
+    scratch_[block].evaluations += samples + 1;
+  };
+  energy(0, 0);
+  blocks_.for_each_block([&](std::size_t block, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) energy(k, block);
+  });
+  return largest;
+}
+
+void SoftNodes::exchange(Archive& archive) {
+  for (std::size_t b = 0; b < NodeBlocks::count; ++b) {
+    archive.enter(fmt::format("block{:02}", b + 1));
+    archive.field("evaluations", scratch_[b].evaluations);
+    landscapes_[b]->exchange(archive);
+    archive.leave();
+  }
+}
+
+}  // namespace lanescape

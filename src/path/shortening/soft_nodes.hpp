@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/archive.hpp"
+#include "landscape/soft_landscape.hpp"
+#include "path/polyline.hpp"
+#include "path/shortening/node_blocks.hpp"
+
+namespace lanescape {
+
+// Makes a landscape for the nodes of one block. Landscapes of one maker may share what is safe to share among threads.
+using SoftLandscapeFactory = std::function<std::unique_ptr<SoftLandscape>()>;
+
+// The nodes of a path on a landscape, with V, grad V and the level that V must not exceed at each.
+class SoftNodes {
+ public:
+  SoftNodes(const SoftLandscapeFactory& make_landscape, std::size_t nodes, int threads);
+
+  const NodeBlocks& blocks() const { return blocks_; }
+  const VectorAlgebra& algebra() const { return landscapes_.front()->algebra(); }
+  std::uint64_t evaluations() const;
+
+  // V, its slope |grad V| and its unit normal grad V/|grad V| at nodes of a path.
+  struct Field {
+    explicit Field(const Polyline& at) : nodes(at), normals(at), energies(at.size(), 0.0), slopes(at.size(), 1.0) {}
+    Polyline nodes, normals;
+    std::vector<double> energies, slopes;
+  };
+  void evaluate(Field& field);
+  // Moves each node by its step and, where V is above its level, back along the gradient. False if that fails at a node.
+  bool move(Field& field, const Field& from, const Polyline& steps, const std::vector<double>& levels, double longest_correction);
+  bool restore(Field& field, const std::vector<double>& levels, double longest_correction);
+  // out_k = (grad V(R_k + e u) - grad V(R_k))/e: the second derivative of V times u_k, of nodes with a factor above 0, by that
+  // factor and added to out.
+  void add_curvature(const Field& field, const Polyline& direction, const std::vector<double>& factors, double displacement,
+                     Polyline& out);
+  // The largest V on each segment.
+  std::vector<double> segment_energies(const Field& field, std::size_t samples);
+
+  void exchange(Archive& archive);
+
+ private:
+  struct Block {
+    std::uint64_t evaluations = 0;
+    AlignedArray position, gradient;
+  };
+  void evaluate_node(Field& field, std::size_t k, std::size_t block);
+  bool restore_node(Field& field, std::size_t k, std::size_t block, double level, double longest_correction);
+
+  NodeBlocks blocks_;
+  std::vector<std::unique_ptr<SoftLandscape>> landscapes_;
+  std::vector<Block> scratch_;
+};
+
+}  // namespace lanescape
