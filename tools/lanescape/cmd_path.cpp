@@ -322,7 +322,9 @@ Subcommand add_path(CLI::App& app) {
                            default_path_method(false).word, default_path_method(true).word));
   options->add_synonym_of_default("--faithful", "steps exactly as published (the default)");
   options
-      ->add_flag("--adaptive", state->adaptive, "steps as long as an estimate of their error allows: the same path in fewer steps")
+      ->add_flag("--adaptive", state->adaptive,
+                 fmt::format("steps as long as an estimate of their error allows, the same path in less time: {}",
+                             adaptive_method_words()))
       .excludes("--faithful");
   options
       ->add("--step", state->step, "length of a direct step in 3N space [sigma] [0.001; hard spheres 0.01; see FORMATS.md, Units]")
