@@ -31,6 +31,8 @@ const PathMethod& default_path_method(bool is_hard);
 const PathMethod& path_method(std::string_view word);
 // The words of a family: "contour, escape".
 std::string path_method_words(bool is_hard, std::string_view separator = ", ");
+// The words of the methods that have adaptive steps.
+std::string adaptive_method_words();
 // Throws Error(bad_input), naming the methods that have them, if the method has no adaptive steps.
 void check_adaptive(const PathMethod& method);
 // Throws Error(bad_input) if the method is not for this kind of model.

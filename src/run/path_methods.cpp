@@ -59,6 +59,14 @@ constexpr PathMethod methods[] = {{"contour", false, 1e-3, 1, begin_contour, beg
                                   {"avoidance", true, 1e-2, 1000, begin_avoidance, nullptr},
                                   {"away", true, {}, 10, begin_away, nullptr}};
 
+template <class Wanted>
+std::string words_of(Wanted wanted, std::string_view separator) {
+  std::string words;
+  for (const PathMethod& method : methods)
+    if (wanted(method)) words += fmt::format("{}{}", words.empty() ? "" : separator, method.word);
+  return words;
+}
+
 }  // namespace
 
 std::span<const PathMethod> path_methods() { return methods; }
@@ -77,18 +85,17 @@ const PathMethod& path_method(std::string_view word) {
 }
 
 std::string path_method_words(bool is_hard, std::string_view separator) {
-  std::string words;
-  for (const PathMethod& method : methods)
-    if (method.is_hard == is_hard) words += fmt::format("{}{}", words.empty() ? "" : separator, method.word);
-  return words;
+  return words_of([&](const PathMethod& method) { return method.is_hard == is_hard; }, separator);
+}
+
+std::string adaptive_method_words() {
+  return words_of([](const PathMethod& method) { return method.begin_adaptive != nullptr; }, ", ");
 }
 
 void check_adaptive(const PathMethod& method) {
-  if (method.begin_adaptive != nullptr) return;
-  std::string words;
-  for (const PathMethod& other : methods)
-    if (other.begin_adaptive != nullptr) words += fmt::format("{}{}", words.empty() ? "" : ", ", other.word);
-  throw_bad_input(fmt::format("method {} has no adaptive steps: methods that have them are {}", method.word, words));
+  if (method.begin_adaptive == nullptr)
+    throw_bad_input(
+        fmt::format("method {} has no adaptive steps: methods that have them are {}", method.word, adaptive_method_words()));
 }
 
 void check_method(const PathMethod& method, const AnyModel& model) {

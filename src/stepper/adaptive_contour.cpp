@@ -93,6 +93,7 @@ bool AdaptiveContourStepper::go_straight(const PathPoint& at, double slope, doub
     }
     length = direct_step_ = shorter;
   }
+  direct_step_ = contour_step_;
   return false;
 }
 

@@ -54,10 +54,10 @@ class Units(ProgramTest):
             result = self.done("insert", self.cubes(8, unit), *self.model(unit), "--energy", "5", "--count", "2")
             return [(i["energy"], i["evaluations"], [x / unit for x in i["position"]]) for i in result["insertions"]]
 
-        def path(unit):
+        def path(unit, *options):
             counts = [f"--{name}-steps=2000" for name in ("melt", "cooling", "check", "settle")]
             result = self.done("path", *self.model(unit), "--particles", "16", "--density", repr(0.5 / unit**3), "--distance", repr(unit),
-                               "--temperature", "5", "--check-tolerance", "4", "--quick", *counts)  # fmt: skip
+                               "--temperature", "5", "--check-tolerance", "4", "--quick", *counts, *options)  # fmt: skip
             return [(p["outcome"], p["length"] / unit, p["steps"], p["landscape_energy"]) for p in result["paths"]]
 
         # At other densities the C library's cbrt() may round the edge of the box differently.
@@ -69,7 +69,10 @@ class Units(ProgramTest):
             return of["diffusion_msd"] / unit, of["displacement_exponent"], of["regime"], result["longest_time"] / unit
 
         self.assertEqual(diffusion(1.0)[2], "diffusive")
-        for of in (inserted, path, diffusion):
+        def adaptive_path(unit):
+            return path(unit, "--adaptive")
+
+        for of in (inserted, path, adaptive_path, diffusion):
             with self.subTest(of.__name__):
                 self.assertEqual(of(2.0**-20), of(1.0))
 

@@ -21,7 +21,10 @@ void PathOptions::add_to(Options& options, const std::string& method_option) {
               fmt::format("{}; {} for hard spheres [{}, {}]", path_method_words(false, " or "), path_method_words(true, " or "),
                           default_path_method(false).word, default_path_method(true).word));
   options.add_synonym_of_default("--faithful", "steps exactly as published (the default)");
-  options.add_flag("--adaptive", adaptive_, "steps as long as an estimate of their error allows: the same path in fewer steps")
+  options
+      .add_flag("--adaptive", adaptive_,
+                fmt::format("steps as long as an estimate of their error allows, the same path in less time: {}",
+                            adaptive_method_words()))
       .excludes("--faithful");
   options.add("--step", step_, "length of a direct step in 3N space [sigma] [0.001; hard spheres 0.01; see FORMATS.md, Units]")
       .only_for({direct_steps_of_a_length});
