@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/aligned_array.hpp"
+#include "interaction/sphere/gap_list.hpp"
+
+namespace lanescape {
+
+// Projects a wished displacement of all spheres on those that no contact forbids: of all u with g_c + n_c.(u_j - u_i) >= 0 for
+// every pair c = (i, j) with gap g_c and normal n_c, the u that minimises sum_i m_i |u_i - w_i|^2.
+//
+// As |r + u| >= n.(r + u), the whole straight way along u is then free of overlaps between the listed pairs.
+//
+// The dual is a non-negative least-squares problem for the multipliers: minimise |w + M^-1 A^T lambda|_M^2 / 2 + lambda.g over
+// lambda >= 0. Gauss-Seidel sweeps find which contacts act; conjugate gradients solve for their multipliers, and drop a contact
+// whose multiplier would become negative. Both lower the dual at every step, so that dependent contacts cannot make it cycle.
+class ContactProjection {
+ public:
+  struct Options {
+    double margin = 1e-12;     // of a gap, kept so that rounding makes no overlap [sigma]
+    double tolerance = 4e-13;  // of gaps [sigma]; rounding leaves about 1e-15
+    int max_rounds = 1000;     // of sweeps followed by conjugate gradients
+  };
+
+  // `inverse_masses` per slot, of any unit.
+  ContactProjection(AlignedArray inverse_masses, const Options& options);
+
+  // Replaces the wish w by u. `multipliers`, one per pair, are a first guess, such as those of the last step, and then the result:
+  // u = w + M^-1 sum_c lambda_c A_c^T. Returns whether the tolerance was met; without it nothing is promised of u. A pair of one
+  // sphere with itself is ignored. Vectors are all x, all y, all z.
+  bool project(std::span<const PairGap> pairs, AlignedArray& displacement, std::vector<double>& multipliers);
+
+  std::uint64_t rounds() const { return rounds_; }          // so far
+  std::uint64_t iterations() const { return iterations_; }  // of conjugate gradients, so far
+
+ private:
+  // A constraint b + a.(u_j - u_i) >= 0 with a = n scaled so that the diagonal of A M^-1 A^T is 1.
+  struct Row {
+    std::int32_t i, j;
+    Point a;
+    double b, scale, lambda;
+    std::size_t pair;
+  };
+
+  void collect(std::span<const PairGap> pairs, const AlignedArray& wish, const std::vector<double>& multipliers);
+  void reset_displacement();
+  double allowed_approach(double gap) const;
+  double residual(const Row& row, const std::vector<Point>& u) const;
+  void push(const Row& row, double amount, std::vector<Point>& u) const;
+  void sweep();
+  double worst_row() const;
+  bool add_violated(std::span<const PairGap> pairs);
+  bool solve_rows();
+  double begin_face();
+  double apply_face();
+  double allowed_length(double length) const;
+  double length_to_minimum(double squared, double curvature) const;
+  bool solve_face();
+  void give(AlignedArray& displacement, std::vector<double>& multipliers) const;
+
+  AlignedArray inverse_masses_;
+  Options options_;
+  std::vector<Row> rows_;
+  std::vector<std::size_t> face_;         // rows that act
+  std::vector<Point> wish_, u_, change_;  // per slot
+  std::vector<double> gaps_, direction_, image_;
+  std::vector<char> listed_;  // pairs that have a row
+  std::uint64_t rounds_ = 0, iterations_ = 0;
+};
+
+}  // namespace lanescape
