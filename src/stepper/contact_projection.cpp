@@ -14,42 +14,29 @@ constexpr double linear = 1e-13;  // the curvature, relative to that of a single
 }  // namespace
 
 ContactProjection::ContactProjection(AlignedArray inverse_masses, const Options& options)
-    : inverse_masses_(std::move(inverse_masses)),
-      options_(options),
-      wish_(inverse_masses_.size()),
-      u_(wish_.size()),
-      change_(wish_.size()) {}
+    : inverse_masses_(std::move(inverse_masses)), options_(options), wish_(inverse_masses_.size()), u_(wish_.size()) {}
 
 // What is left of a gap beyond the margin. Contacts closer than that need not part, which may be impossible; overlaps must.
 double ContactProjection::allowed_approach(double gap) const { return gap < 0.0 ? gap : std::max(0.0, gap - options_.margin); }
 
-double ContactProjection::residual(const Row& row, const std::vector<Point>& u) const {
-  return dot(row.a, difference(u[static_cast<std::size_t>(row.j)], u[static_cast<std::size_t>(row.i)]));
+void ContactProjection::add_row(const PairGap& pair, std::size_t number, double multiplier) {
+  const auto i = static_cast<std::size_t>(pair.first), j = static_cast<std::size_t>(pair.second);
+  const double scale = 1.0 / std::sqrt(inverse_masses_[i] + inverse_masses_[j]);
+  const Point a{scale * pair.normal[0], scale * pair.normal[1], scale * pair.normal[2]};
+  rows_.push_back({i, j, number, a, scale});
+  at_wish_.push_back(scale * allowed_approach(pair.gap) + dot(a, difference(wish_[j], wish_[i])));
+  lambda_.push_back(multiplier / scale);
+  listed_[number] = 1;
 }
 
-// Adds M^-1 a amount.
-void ContactProjection::push(const Row& row, double amount, std::vector<Point>& u) const {
-  const auto i = static_cast<std::size_t>(row.i), j = static_cast<std::size_t>(row.j);
-  const double at_i = amount * inverse_masses_[i], at_j = amount * inverse_masses_[j];
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    u[i][axis] -= at_i * row.a[axis];
-    u[j][axis] += at_j * row.a[axis];
-  }
-}
-
-// Gives a row to every pair that acted in the guess or that u brings too close; returns whether there was any new one.
+// Gives a row to every pair that u brings too close; returns whether there was any.
 bool ContactProjection::add_violated(std::span<const PairGap> pairs) {
   const std::size_t before = rows_.size();
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const PairGap& pair = pairs[c];
-    if (listed_[c] || pair.first == pair.second) continue;
-    const auto i = static_cast<std::size_t>(pair.first), j = static_cast<std::size_t>(pair.second);
-    const double b = allowed_approach(pair.gap);
-    if (b + dot(pair.normal, difference(u_[j], u_[i])) >= -options_.tolerance) continue;
-    const double scale = 1.0 / std::sqrt(inverse_masses_[i] + inverse_masses_[j]);
-    const Point a{scale * pair.normal[0], scale * pair.normal[1], scale * pair.normal[2]};
-    rows_.push_back({pair.first, pair.second, a, scale * b, scale, 0.0, c});
-    listed_[c] = 1;
+    if (listed_[c]) continue;
+    const Point approach = difference(u_[static_cast<std::size_t>(pair.second)], u_[static_cast<std::size_t>(pair.first)]);
+    if (allowed_approach(pair.gap) + dot(pair.normal, approach) < -options_.tolerance) add_row(pair, c, 0.0);
   }
   return rows_.size() > before;
 }
@@ -57,37 +44,74 @@ bool ContactProjection::add_violated(std::span<const PairGap> pairs) {
 void ContactProjection::collect(std::span<const PairGap> pairs, const AlignedArray& wish, const std::vector<double>& multipliers) {
   const std::size_t slots = wish_.size();
   for (std::size_t i = 0; i < slots; ++i) wish_[i] = {wish[i], wish[slots + i], wish[2 * slots + i]};
+  for (auto* array : {&lambda_, &at_wish_}) array->clear();
   rows_.clear();
   listed_.assign(pairs.size(), 0);
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    if (pairs[c].first == pairs[c].second)
+      listed_[c] = 1;
+    else if (c < multipliers.size() && multipliers[c] > 0.0)
+      add_row(pairs[c], c, multipliers[c]);
+  }
   u_ = wish_;
   add_violated(pairs);
-  for (Row& row : rows_)
-    if (row.pair < multipliers.size()) row.lambda = std::max(0.0, multipliers[row.pair] / row.scale);
 }
 
-// u from the multipliers, so that rounding does not add up.
-void ContactProjection::reset_displacement() {
-  u_ = wish_;
+double ContactProjection::coupling(const Row& row, std::size_t shared, const Row& other) const {
+  const double sign = (row.i == shared) == (other.i == shared) ? 1.0 : -1.0;
+  return sign * inverse_masses_[shared] * dot(row.a, other.a);
+}
+
+// The entries of A M^-1 A^T; those of two rows that share both spheres are given as two.
+void ContactProjection::couple_rows() {
+  slot_begin_.assign(wish_.size() + 1, 0);
   for (const Row& row : rows_)
-    if (row.lambda > 0.0) push(row, row.lambda, u_);
+    for (const std::size_t slot : {row.i, row.j}) ++slot_begin_[slot + 1];
+  for (std::size_t slot = 0; slot < wish_.size(); ++slot) slot_begin_[slot + 1] += slot_begin_[slot];
+  slot_rows_.resize(2 * rows_.size());
+  std::vector<std::size_t>& next = face_;
+  next.assign(slot_begin_.begin(), slot_begin_.end());
+  for (std::size_t c = 0; c < rows_.size(); ++c)
+    for (const std::size_t slot : {rows_[c].i, rows_[c].j}) slot_rows_[next[slot]++] = c;
+  entries_.clear();
+  row_begin_.assign(1, 0);
+  for (std::size_t c = 0; c < rows_.size(); ++c) {
+    for (const std::size_t slot : {rows_[c].i, rows_[c].j})
+      for (std::size_t k = slot_begin_[slot]; k < slot_begin_[slot + 1]; ++k)
+        if (slot_rows_[k] != c) entries_.push_back({slot_rows_[k], coupling(rows_[c], slot, rows_[slot_rows_[k]])});
+    row_begin_.push_back(entries_.size());
+  }
 }
 
-// One Gauss-Seidel sweep.
-void ContactProjection::sweep() {
-  for (Row& row : rows_) {
-    const double lambda = std::max(0.0, row.lambda - row.b - residual(row, u_));
-    if (lambda == row.lambda) continue;
-    push(row, lambda - row.lambda, u_);
-    row.lambda = lambda;
+// u from the multipliers.
+void ContactProjection::move_by_multipliers() {
+  u_ = wish_;
+  for (std::size_t c = 0; c < rows_.size(); ++c) {
+    const auto& [i, j, pair, a, scale] = rows_[c];
+    const double at_i = lambda_[c] * inverse_masses_[i], at_j = lambda_[c] * inverse_masses_[j];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      u_[i][axis] -= at_i * a[axis];
+      u_[j][axis] += at_j * a[axis];
+    }
   }
+}
+
+double ContactProjection::gap(std::size_t row) const {
+  double sum = at_wish_[row] + lambda_[row];
+  for (std::size_t k = row_begin_[row]; k < row_begin_[row + 1]; ++k) sum += entries_[k].value * lambda_[entries_[k].column];
+  return sum;
+}
+
+void ContactProjection::sweep() {
+  for (std::size_t c = 0; c < rows_.size(); ++c) lambda_[c] = std::max(0.0, lambda_[c] - gap(c));
 }
 
 // The largest gap of a row that acts, or the largest overlap of one that does not [sigma].
 double ContactProjection::worst_row() const {
   double worst = 0.0;
-  for (const Row& row : rows_) {
-    const double gap = (row.b + residual(row, u_)) / row.scale;
-    worst = std::max(worst, row.lambda > 0.0 ? std::abs(gap) : -gap);
+  for (std::size_t c = 0; c < rows_.size(); ++c) {
+    const double g = gap(c) / rows_[c].scale;
+    worst = std::max(worst, lambda_[c] > 0.0 ? std::abs(g) : -g);
   }
   return worst;
 }
@@ -95,28 +119,28 @@ double ContactProjection::worst_row() const {
 // The rows that act, their gaps, and the squared norm of these.
 double ContactProjection::begin_face() {
   face_.clear();
-  for (std::size_t k = 0; k < rows_.size(); ++k)
-    if (rows_[k].lambda > 0.0) face_.push_back(k);
+  for (std::size_t c = 0; c < rows_.size(); ++c)
+    if (lambda_[c] > 0.0) face_.push_back(c);
   gaps_.resize(face_.size());
   image_.resize(face_.size());
+  direction_.assign(rows_.size(), 0.0);
   double squared = 0.0;
   for (std::size_t f = 0; f < face_.size(); ++f) {
-    const Row& row = rows_[face_[f]];
-    gaps_[f] = row.b + residual(row, u_);
+    direction_[face_[f]] = gaps_[f] = gap(face_[f]);
     squared += gaps_[f] * gaps_[f];
   }
-  direction_ = gaps_;
   return squared;
 }
 
 // image = A M^-1 A^T direction; returns their product.
 double ContactProjection::apply_face() {
-  std::fill(change_.begin(), change_.end(), Point{});
-  for (std::size_t f = 0; f < face_.size(); ++f) push(rows_[face_[f]], direction_[f], change_);
   double curvature = 0.0;
   for (std::size_t f = 0; f < face_.size(); ++f) {
-    image_[f] = residual(rows_[face_[f]], change_);
-    curvature += direction_[f] * image_[f];
+    const std::size_t c = face_[f];
+    double sum = direction_[c];
+    for (std::size_t k = row_begin_[c]; k < row_begin_[c + 1]; ++k) sum += entries_[k].value * direction_[entries_[k].column];
+    image_[f] = sum;
+    curvature += direction_[c] * sum;
   }
   return curvature;
 }
@@ -124,15 +148,15 @@ double ContactProjection::apply_face() {
 // How far the minimum of the dual lies along the direction. Where contacts depend on each other the dual can be linear in it.
 double ContactProjection::length_to_minimum(double squared, double curvature) const {
   double norm = 0.0;
-  for (const double d : direction_) norm += d * d;
+  for (const std::size_t c : face_) norm += direction_[c] * direction_[c];
   return curvature > linear * norm ? squared / curvature : std::numeric_limits<double>::infinity();
 }
 
 // The longest step along the direction, up to `length`, that leaves no multiplier negative.
 double ContactProjection::allowed_length(double length) const {
   double allowed = length;
-  for (std::size_t f = 0; f < face_.size(); ++f)
-    if (allowed * direction_[f] > rows_[face_[f]].lambda) allowed = rows_[face_[f]].lambda / direction_[f];
+  for (const std::size_t c : face_)
+    if (allowed * direction_[c] > lambda_[c]) allowed = lambda_[c] / direction_[c];
   return allowed;
 }
 
@@ -147,21 +171,23 @@ bool ContactProjection::solve_face() {
     if (std::isinf(allowed)) return false;
     double next_squared = 0.0;
     for (std::size_t f = 0; f < face_.size(); ++f) {
-      Row& row = rows_[face_[f]];
-      row.lambda = std::max(0.0, row.lambda - allowed * direction_[f]);
+      const std::size_t c = face_[f];
+      lambda_[c] = std::max(0.0, lambda_[c] - allowed * direction_[c]);
       gaps_[f] -= allowed * image_[f];
       next_squared += gaps_[f] * gaps_[f];
     }
     if (allowed < length) break;
-    for (std::size_t f = 0; f < face_.size(); ++f) direction_[f] = gaps_[f] + next_squared / squared * direction_[f];
+    for (std::size_t f = 0; f < face_.size(); ++f) {
+      double& d = direction_[face_[f]];
+      d = gaps_[f] + next_squared / squared * d;
+    }
     squared = next_squared;
   }
-  reset_displacement();
   return true;
 }
 
 bool ContactProjection::solve_rows() {
-  reset_displacement();
+  couple_rows();
   for (int round = 0; round < options_.max_rounds; ++round) {
     ++rounds_;
     for (int k = 0; k < sweeps_per_round; ++k) sweep();
@@ -176,7 +202,7 @@ void ContactProjection::give(AlignedArray& displacement, std::vector<double>& mu
   for (std::size_t i = 0; i < slots; ++i)
     for (std::size_t axis = 0; axis < 3; ++axis) displacement[axis * slots + i] = u_[i][axis];
   multipliers.assign(listed_.size(), 0.0);
-  for (const Row& row : rows_) multipliers[row.pair] = row.lambda * row.scale;
+  for (std::size_t c = 0; c < rows_.size(); ++c) multipliers[rows_[c].pair] = lambda_[c] * rows_[c].scale;
 }
 
 bool ContactProjection::project(std::span<const PairGap> pairs, AlignedArray& displacement, std::vector<double>& multipliers) {
@@ -184,6 +210,7 @@ bool ContactProjection::project(std::span<const PairGap> pairs, AlignedArray& di
   bool solved = true;
   do {
     solved = solve_rows();
+    move_by_multipliers();
   } while (solved && add_violated(pairs));
   give(displacement, multipliers);
   return solved;

@@ -38,37 +38,46 @@ class ContactProjection {
   std::uint64_t iterations() const { return iterations_; }  // of conjugate gradients, so far
 
  private:
-  // A constraint b + a.(u_j - u_i) >= 0 with a = n scaled so that the diagonal of A M^-1 A^T is 1.
+  // A constraint g + a.(u_j - u_i) >= 0 with a = n scaled so that the diagonal of A M^-1 A^T is 1.
   struct Row {
-    std::int32_t i, j;
+    std::size_t i, j, pair;
     Point a;
-    double b, scale, lambda;
-    std::size_t pair;
+    double scale;
+  };
+  // Of A M^-1 A^T, off its diagonal.
+  struct Entry {
+    std::size_t column;
+    double value;
   };
 
-  void collect(std::span<const PairGap> pairs, const AlignedArray& wish, const std::vector<double>& multipliers);
-  void reset_displacement();
   double allowed_approach(double gap) const;
-  double residual(const Row& row, const std::vector<Point>& u) const;
-  void push(const Row& row, double amount, std::vector<Point>& u) const;
+  void collect(std::span<const PairGap> pairs, const AlignedArray& wish, const std::vector<double>& multipliers);
+  void add_row(const PairGap& pair, std::size_t number, double multiplier);
+  bool add_violated(std::span<const PairGap> pairs);
+  void couple_rows();
+  double coupling(const Row& row, std::size_t shared, const Row& other) const;
+  void move_by_multipliers();
+  double gap(std::size_t row) const;
   void sweep();
   double worst_row() const;
-  bool add_violated(std::span<const PairGap> pairs);
   bool solve_rows();
   double begin_face();
   double apply_face();
-  double allowed_length(double length) const;
   double length_to_minimum(double squared, double curvature) const;
+  double allowed_length(double length) const;
   bool solve_face();
   void give(AlignedArray& displacement, std::vector<double>& multipliers) const;
 
   AlignedArray inverse_masses_;
   Options options_;
+  std::vector<Point> wish_, u_;  // per slot
+  std::vector<char> listed_;     // pairs that have a row
   std::vector<Row> rows_;
-  std::vector<std::size_t> face_;         // rows that act
-  std::vector<Point> wish_, u_, change_;  // per slot
-  std::vector<double> gaps_, direction_, image_;
-  std::vector<char> listed_;  // pairs that have a row
+  std::vector<double> lambda_, at_wish_;  // per row: its multiplier, and its gap if u were w
+  std::vector<std::size_t> row_begin_, slot_begin_, slot_rows_;
+  std::vector<Entry> entries_;
+  std::vector<std::size_t> face_;                 // rows that act
+  std::vector<double> gaps_, direction_, image_;  // of the face; the direction of all rows
   std::uint64_t rounds_ = 0, iterations_ = 0;
 };
 
