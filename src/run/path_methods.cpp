@@ -11,6 +11,7 @@
 #include "stepper/away.hpp"
 #include "stepper/contour.hpp"
 #include "stepper/escape.hpp"
+#include "stepper/slide.hpp"
 
 namespace lanescape {
 namespace {
@@ -47,6 +48,16 @@ std::unique_ptr<PathSearch> begin_avoidance(const SearchSetup& setup) {
   return begin_search(setup, std::move(landscape), std::move(stepper));
 }
 
+std::unique_ptr<PathSearch> begin_slide(const SearchSetup& setup) {
+  const double unit = length_unit(setup.model);
+  const SlideStepper::Options options{.largest_move = SlideStepper::Options{}.largest_move * unit, .unit = unit};
+  auto landscape = std::make_unique<ContactLandscape>(setup.pair.start.box, setup.prepared.layout, setup.pair.start.radii,
+                                                      setup.prepared.metric, setup.isa, SlideStepper::reach(options),
+                                                      SlideStepper::skin(options));
+  SlideStepper stepper(*landscape, options);
+  return begin_search(setup, std::move(landscape), std::move(stepper));
+}
+
 std::unique_ptr<PathSearch> begin_away(const SearchSetup& setup) {
   auto landscape = hard_landscape(setup);
   AwayStepper stepper(setup.pair.start.box, setup.prepared.layout, setup.pair.start.radii, *landscape, setup.goal(), {});
@@ -56,7 +67,7 @@ std::unique_ptr<PathSearch> begin_away(const SearchSetup& setup) {
 // Avoidance makes long detours of short steps: it needs the most patience.
 constexpr PathMethod methods[] = {{"contour", false, 1e-3, 1, begin_contour, begin_adaptive_contour},
                                   {"escape", false, 1e-3, 1, begin_escape, nullptr},
-                                  {"avoidance", true, 1e-2, 1000, begin_avoidance, nullptr},
+                                  {"avoidance", true, 1e-2, 1000, begin_avoidance, begin_slide},
                                   {"away", true, {}, 10, begin_away, nullptr}};
 
 template <class Wanted>
