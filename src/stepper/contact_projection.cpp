@@ -9,6 +9,7 @@ namespace lanescape {
 namespace {
 
 constexpr int sweeps_per_round = 3;
+constexpr auto none = ~std::uint32_t{0};
 constexpr double linear = 1e-13;  // the curvature, relative to that of a single contact, of a dual that rounding has curved
 
 }  // namespace
@@ -69,8 +70,7 @@ void ContactProjection::couple_rows() {
     for (const std::size_t slot : {row.i, row.j}) ++slot_begin_[slot + 1];
   for (std::size_t slot = 0; slot < wish_.size(); ++slot) slot_begin_[slot + 1] += slot_begin_[slot];
   slot_rows_.resize(2 * rows_.size());
-  std::vector<std::size_t>& next = face_;
-  next.assign(slot_begin_.begin(), slot_begin_.end());
+  std::vector<std::size_t> next = slot_begin_;
   for (std::size_t c = 0; c < rows_.size(); ++c)
     for (const std::size_t slot : {rows_[c].i, rows_[c].j}) slot_rows_[next[slot]++] = c;
   entries_.clear();
@@ -78,7 +78,7 @@ void ContactProjection::couple_rows() {
   for (std::size_t c = 0; c < rows_.size(); ++c) {
     for (const std::size_t slot : {rows_[c].i, rows_[c].j})
       for (std::size_t k = slot_begin_[slot]; k < slot_begin_[slot + 1]; ++k)
-        if (slot_rows_[k] != c) entries_.push_back({slot_rows_[k], coupling(rows_[c], slot, rows_[slot_rows_[k]])});
+        if (slot_rows_[k] != c) entries_.push_back({static_cast<std::uint32_t>(slot_rows_[k]), coupling(rows_[c], slot, rows_[slot_rows_[k]])});
     row_begin_.push_back(entries_.size());
   }
 }
@@ -116,47 +116,54 @@ double ContactProjection::worst_row() const {
   return worst;
 }
 
-// The rows that act, their gaps, and the squared norm of these.
+// The rows that act, numbered anew, with their gaps and their part of the matrix; returns the squared norm of the gaps.
 double ContactProjection::begin_face() {
   face_.clear();
+  in_face_.assign(rows_.size(), none);
   for (std::size_t c = 0; c < rows_.size(); ++c)
-    if (lambda_[c] > 0.0) face_.push_back(c);
-  gaps_.resize(face_.size());
-  image_.resize(face_.size());
-  direction_.assign(rows_.size(), 0.0);
+    if (lambda_[c] > 0.0) {
+      in_face_[c] = static_cast<std::uint32_t>(face_.size());
+      face_.push_back(c);
+    }
+  const std::size_t n = face_.size();
+  for (auto* array : {&gaps_, &image_, &at_face_}) array->resize(n);
+  face_begin_.assign(1, 0);
+  face_entries_.clear();
   double squared = 0.0;
-  for (std::size_t f = 0; f < face_.size(); ++f) {
-    direction_[face_[f]] = gaps_[f] = gap(face_[f]);
+  for (std::size_t f = 0; f < n; ++f) {
+    const std::size_t c = face_[f];
+    for (std::size_t k = row_begin_[c]; k < row_begin_[c + 1]; ++k)
+      if (in_face_[entries_[k].column] != none) face_entries_.push_back({in_face_[entries_[k].column], entries_[k].value});
+    face_begin_.push_back(face_entries_.size());
+    at_face_[f] = lambda_[c];
+    gaps_[f] = gap(c);
     squared += gaps_[f] * gaps_[f];
   }
+  direction_ = gaps_;
   return squared;
 }
 
-// image = A M^-1 A^T direction; returns their product.
-double ContactProjection::apply_face() {
-  double curvature = 0.0;
+// image = A M^-1 A^T direction; returns how far the minimum of the dual lies along the direction. Where contacts depend on each
+// other the dual can be linear in it.
+double ContactProjection::length_to_minimum(double squared) {
+  double curvature = 0.0, norm = 0.0;
   for (std::size_t f = 0; f < face_.size(); ++f) {
-    const std::size_t c = face_[f];
-    double sum = direction_[c];
-    for (std::size_t k = row_begin_[c]; k < row_begin_[c + 1]; ++k) sum += entries_[k].value * direction_[entries_[k].column];
+    const double d = direction_[f];
+    double sum = d;
+    for (std::size_t k = face_begin_[f]; k < face_begin_[f + 1]; ++k)
+      sum += face_entries_[k].value * direction_[face_entries_[k].column];
     image_[f] = sum;
-    curvature += direction_[c] * sum;
+    curvature += d * sum;
+    norm += d * d;
   }
-  return curvature;
-}
-
-// How far the minimum of the dual lies along the direction. Where contacts depend on each other the dual can be linear in it.
-double ContactProjection::length_to_minimum(double squared, double curvature) const {
-  double norm = 0.0;
-  for (const std::size_t c : face_) norm += direction_[c] * direction_[c];
   return curvature > linear * norm ? squared / curvature : std::numeric_limits<double>::infinity();
 }
 
 // The longest step along the direction, up to `length`, that leaves no multiplier negative.
 double ContactProjection::allowed_length(double length) const {
   double allowed = length;
-  for (const std::size_t c : face_)
-    if (allowed * direction_[c] > lambda_[c]) allowed = lambda_[c] / direction_[c];
+  for (std::size_t f = 0; f < face_.size(); ++f)
+    if (allowed * direction_[f] > at_face_[f]) allowed = at_face_[f] / direction_[f];
   return allowed;
 }
 
@@ -167,22 +174,20 @@ bool ContactProjection::solve_face() {
   const double target = 0.1 * options_.tolerance * options_.tolerance;
   for (std::size_t iteration = 0; iteration < 2 * face_.size() + 10 && squared > target; ++iteration) {
     ++iterations_;
-    const double length = length_to_minimum(squared, apply_face()), allowed = allowed_length(length);
+    const double length = length_to_minimum(squared), allowed = allowed_length(length);
     if (std::isinf(allowed)) return false;
     double next_squared = 0.0;
     for (std::size_t f = 0; f < face_.size(); ++f) {
-      const std::size_t c = face_[f];
-      lambda_[c] = std::max(0.0, lambda_[c] - allowed * direction_[c]);
+      at_face_[f] = std::max(0.0, at_face_[f] - allowed * direction_[f]);
       gaps_[f] -= allowed * image_[f];
       next_squared += gaps_[f] * gaps_[f];
     }
     if (allowed < length) break;
-    for (std::size_t f = 0; f < face_.size(); ++f) {
-      double& d = direction_[face_[f]];
-      d = gaps_[f] + next_squared / squared * d;
-    }
+    const double ratio = next_squared / squared;
+    for (std::size_t f = 0; f < face_.size(); ++f) direction_[f] = gaps_[f] + ratio * direction_[f];
     squared = next_squared;
   }
+  for (std::size_t f = 0; f < face_.size(); ++f) lambda_[face_[f]] = at_face_[f];
   return true;
 }
 

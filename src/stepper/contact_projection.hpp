@@ -46,7 +46,7 @@ class ContactProjection {
   };
   // Of A M^-1 A^T, off its diagonal.
   struct Entry {
-    std::size_t column;
+    std::uint32_t column;
     double value;
   };
 
@@ -62,8 +62,7 @@ class ContactProjection {
   double worst_row() const;
   bool solve_rows();
   double begin_face();
-  double apply_face();
-  double length_to_minimum(double squared, double curvature) const;
+  double length_to_minimum(double squared);
   double allowed_length(double length) const;
   bool solve_face();
   void give(AlignedArray& displacement, std::vector<double>& multipliers) const;
@@ -76,8 +75,10 @@ class ContactProjection {
   std::vector<double> lambda_, at_wish_;  // per row: its multiplier, and its gap if u were w
   std::vector<std::size_t> row_begin_, slot_begin_, slot_rows_;
   std::vector<Entry> entries_;
-  std::vector<std::size_t> face_;                 // rows that act
-  std::vector<double> gaps_, direction_, image_;  // of the face; the direction of all rows
+  std::vector<std::size_t> face_, face_begin_;  // rows that act; the same numbers and arrays for them alone
+  std::vector<std::uint32_t> in_face_;          // per row
+  std::vector<Entry> face_entries_;
+  std::vector<double> at_face_, gaps_, direction_, image_;
   std::uint64_t rounds_ = 0, iterations_ = 0;
 };
 
