@@ -51,9 +51,9 @@ std::unique_ptr<PathSearch> begin_avoidance(const SearchSetup& setup) {
 std::unique_ptr<PathSearch> begin_slide(const SearchSetup& setup) {
   const double unit = length_unit(setup.model);
   const SlideStepper::Options options{.largest_move = SlideStepper::Options{}.largest_move * unit, .unit = unit};
-  auto landscape = std::make_unique<ContactLandscape>(setup.pair.start.box, setup.prepared.layout, setup.pair.start.radii,
-                                                      setup.prepared.metric, setup.isa, SlideStepper::reach(options),
-                                                      SlideStepper::skin(options));
+  auto landscape =
+      std::make_unique<ContactLandscape>(setup.pair.start.box, setup.prepared.layout, setup.pair.start.radii, setup.prepared.metric,
+                                         setup.isa, SlideStepper::reach(options), SlideStepper::skin(options));
   SlideStepper stepper(*landscape, options);
   return begin_search(setup, std::move(landscape), std::move(stepper));
 }

@@ -66,8 +66,8 @@ PreparedPair prepare_pair(const AnyModel& model, const ConfigurationPair& pair, 
   const Mixture& mixture = mixture_of(model);
   const ParticleLayout layout = ParticleLayout::in_space_order(pair.start, mixture.species.size());
   if (is_hard(model)) {
-    if (!mixture.has_equal_masses())
-      throw_bad_input(fmt::format("{}: hard spheres of unequal masses have no path yet: equal masses are needed", where));
+    if (!mixture.has_equal_masses() && options.stepping == Stepping::faithful)
+      throw_bad_input(fmt::format("{}: hard spheres of unequal masses have no faithful path: adaptive steps are needed", where));
     return prepared_ends(mixture, layout, pair, isa);
   }
   const auto make = [&] { return model_landscape(model, pair.start.box, layout, isa, options.threads, options.precision); };

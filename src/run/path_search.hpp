@@ -29,7 +29,7 @@ struct PreparedPair {
 // Makes the landscape of soft particles on which a path runs, in positions.
 using SoftLandscapeMaker = std::function<std::unique_ptr<SoftLandscape>()>;
 
-// Throws Error(bad_input) for a pair that check_end_points() refuses, for hard spheres of unequal masses, and for an end above a
+// Throws Error(bad_input) for a pair that check_end_points() refuses, for faithful steps of hard spheres of unequal masses, and for an end above a
 // given landscape energy. Messages start with `where`.
 PreparedPair prepare_pair(const AnyModel& model, const ConfigurationPair& pair, const std::string& where,
                           const PathRunOptions& options, Isa isa);

@@ -78,7 +78,8 @@ void ContactProjection::couple_rows() {
   for (std::size_t c = 0; c < rows_.size(); ++c) {
     for (const std::size_t slot : {rows_[c].i, rows_[c].j})
       for (std::size_t k = slot_begin_[slot]; k < slot_begin_[slot + 1]; ++k)
-        if (slot_rows_[k] != c) entries_.push_back({static_cast<std::uint32_t>(slot_rows_[k]), coupling(rows_[c], slot, rows_[slot_rows_[k]])});
+        if (slot_rows_[k] != c)
+          entries_.push_back({static_cast<std::uint32_t>(slot_rows_[k]), coupling(rows_[c], slot, rows_[slot_rows_[k]])});
     row_begin_.push_back(entries_.size());
   }
 }

@@ -6,11 +6,11 @@
 namespace lanescape {
 namespace {
 
-constexpr double blocked = 1e-3;          // a displacement that is this part of its wish is none
-constexpr double regained = 0.99;         // of the distance where the path was stuck: from here on it goes on as before
-constexpr std::uint64_t sharpest = 6;     // log2(p/2)
-constexpr std::uint64_t patience = 300;   // steps with one exponent
-constexpr double turn = 0.1;              // of the pull, tangent of the angle
+constexpr double blocked = 1e-3;         // a displacement that is this part of its wish is none
+constexpr double regained = 0.99;        // of the distance where the path was stuck: from here on it goes on as before
+constexpr std::uint64_t sharpest = 6;    // log2(p/2)
+constexpr std::uint64_t patience = 300;  // steps with one exponent
+constexpr double turn = 0.1;             // of the pull, tangent of the angle
 
 std::uint64_t key(const PairGap& pair) {
   return static_cast<std::uint64_t>(pair.first) << 32 | static_cast<std::uint64_t>(pair.second);
@@ -117,8 +117,8 @@ bool SlideStepper::project(const PathPoint& at, const std::vector<PairGap>& pair
   return true;
 }
 
-// The share of the displacement to make: no sphere moves so far that it could meet one beyond the reach. Sets the length of the next
-// wish so that the sphere that moves most will move by `largest_move`.
+// The share of the displacement to make: no sphere moves so far that it could meet one beyond the reach. Sets the length of the
+// next wish so that the sphere that moves most will move by `largest_move`.
 double SlideStepper::limit_displacement() {
   double squared = 0.0;
   moved_ = 0;

@@ -24,8 +24,9 @@ namespace lanescape {
 class SlideStepper {
  public:
   struct Options {
-    double largest_move = 0.1;  // of any sphere in a step [sigma]; gaps open by less than 2 of its squares over s, as contacts curve
-    double unit = 1.0;          // of length, to which tolerances are relative [sigma]
+    // Of any sphere in a step [sigma]. As contacts curve they open by at most 3 of its squares over s.
+    double largest_move = 0.1;
+    double unit = 1.0;  // of length, to which tolerances are relative [sigma]
   };
   // What a landscape for these options needs [sigma].
   static double reach(const Options& options) { return 2.0 * most_move(options); }
@@ -65,11 +66,11 @@ class SlideStepper {
   ContactLandscape* landscape_;
   Options options_;
   ContactProjection projection_;
-  AlignedArray zero_, way_;         // way_ in q: the wish, then what the contacts leave of it
-  AlignedArray displacement_;       // the same in positions
-  double wish_length_;              // of the next wish, in q
-  double last_wish_ = 0.0;          // of the wish that gave the multipliers
-  std::vector<double> multipliers_;  // per listed pair
+  AlignedArray zero_, way_;                               // way_ in q: the wish, then what the contacts leave of it
+  AlignedArray displacement_;                             // the same in positions
+  double wish_length_;                                    // of the next wish, in q
+  double last_wish_ = 0.0;                                // of the wish that gave the multipliers
+  std::vector<double> multipliers_;                       // per listed pair
   std::vector<std::pair<std::uint64_t, double>> acting_;  // the same by spheres, for another list
   std::uint64_t sharpened_ = 0, sharp_steps_ = 0;         // log2(p/2), and steps with it
   double stuck_distance_ = 0.0;

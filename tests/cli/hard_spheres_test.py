@@ -76,6 +76,28 @@ class HardSpheres(InterruptionTest):
         whole = sum(int(r["steps"]) for r in steps if r["quantity"] == "participation_ratio")
         self.assertEqual(whole, sum(path["steps"].values()))
 
+    def test_adaptive_steps_find_a_shorter_path_with_no_overlap_along_it(self):
+        pair = self.ends(self.folder / "ends")["pairs"][0]
+        arguments = ("path", "--model", "hard-sphere-binary", "--pair", pair["file"])
+        [faithful] = self.done(*arguments, "--faithful")["paths"]
+        [adaptive] = self.done(*arguments, "--adaptive")["paths"]
+        self.assertEqual(set(adaptive), set(faithful))
+        self.assertEqual(adaptive["outcome"], "reached")
+        self.assertLess(adaptive["length"], faithful["length"])
+        self.assertLess(100 * adaptive["evaluations"], faithful["evaluations"])
+        self.assertLessEqual(adaptive["largest_violation"], 1e-12)
+        self.assertAlmostEqual(sum(adaptive["lengths"].values()), adaptive["length"], places=10)
+
+    def test_an_interrupted_adaptive_path_resumes_to_the_same_bits(self):
+        pair = self.done("endpoints", *with_options(SPHERES, "--particles", "108"), "--packing-fraction", "0.55",
+                         *with_options(QUICK_SPHERES, "--distance", "108"), "--out", self.folder / "ends")["pairs"][0]
+        arguments = ("path", "--model", "hard-sphere-binary", "--pair", pair["file"], "--adaptive")
+        whole, out = self.folder / "whole", self.folder / "cut"
+        self.done(*arguments, "--out", whole)
+        result = self.interrupt(*arguments, out=out, seconds=0.1)
+        self.assertEqual(result["paths"][0]["outcome"], "interrupted")
+        self.assert_resumes_to(out, whole, "path")
+
     def test_an_interrupted_path_resumes_to_the_same_bits(self):
         ends = self.folder / "ends"
         pair = self.done("endpoints", *SPHERES, "--packing-fraction", "0.55",

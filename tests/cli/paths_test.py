@@ -57,7 +57,7 @@ class Paths(ProgramTest):
     def test_adaptive_steps_are_refused_where_there_are_none(self):
         [pair] = self.make_pairs("ends")
         self.refused("path", *ARGON, "--pair", pair, "--method", "escape", "--adaptive",
-                     says="method escape has no adaptive steps: methods that have them are contour")
+                     says="method escape has no adaptive steps: methods that have them are contour, avoidance")
         self.refused("path", *ARGON, "--pair", pair, "--faithful", "--adaptive", says="--faithful excludes --adaptive")
 
     def test_end_points_are_made_where_none_are_given(self):

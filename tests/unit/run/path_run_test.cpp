@@ -268,7 +268,23 @@ TEST(PathRun, RefusesPairsByTheirNumber) {
   HardSphereModel unequal = hard_sphere_binary();
   unequal.species[0].mass = 2.0;
   hard.model = unequal;
-  EXPECT_EQ(refusal([&] { hard.result(); }), "pair 1: hard spheres of unequal masses have no path yet: equal masses are needed");
+  EXPECT_EQ(refusal([&] { hard.result(); }),
+            "pair 1: hard spheres of unequal masses have no faithful path: adaptive steps are needed");
+}
+
+TEST(PathRun, SlidesHardSpheresOfUnequalMassesWithAdaptiveSteps) {
+  Method hard("avoidance");
+  HardSphereModel unequal = hard_sphere_binary();
+  unequal.species[0].mass = 2.0;
+  hard.model = unequal;
+  hard.pair.start.species = hard.pair.finish.species = {0, 1};
+  hard.options.stepping = Stepping::adaptive;
+  hard.options.direct_step.reset();
+  const PathResult path = hard.result();
+  EXPECT_EQ(path.outcome, Outcome::reached) << path.reason;
+  EXPECT_GT(path.detour_steps, 0u);
+  EXPECT_LE(path.largest_violation, 1e-12);
+  EXPECT_EQ(path.frames.back().positions, hard.pair.finish.positions);
 }
 
 TEST(PathRun, RefusesOptionsOutOfRange) {
