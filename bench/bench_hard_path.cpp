@@ -1,5 +1,6 @@
-// A whole path of binary hard spheres by collision avoidance, N = 108, DeltaR = 108, with [G]'s own step lengths. Event-driven
-// dynamics generates the end points. The instruction set is the best available one, or LANESCAPE_ISA.
+// A whole path of binary hard spheres, N = 108, DeltaR = 108, by collision avoidance with [G]'s own step lengths, and by slides
+// along contacts (adaptive steps) between the same ends. Event-driven dynamics generates the end points. The instruction set is the
+// best available one, or LANESCAPE_ISA.
 
 #include <fmt/format.h>
 
@@ -46,15 +47,51 @@ std::string check(const PathResult& path) {
              : "";
 }
 
-void find_path(benchmark::State& state, double packing_fraction, kernels::ContactPotential potential) {
-  PathRunOptions options;
+PathResult path_between(double packing_fraction, PathRunOptions options) {
   options.method = &path_method("avoidance");
-  options.fictitious = potential;
   options.finder.frames = 20;
   SilentMonitor monitor;
+  return run_paths(hard_sphere_binary(), {ends(packing_fraction)}, options, choose_isa("auto"), {}, monitor).front();
+}
+
+// The path of collision avoidance by its default potential, for comparison.
+const PathResult& faithful_path(double packing_fraction) {
+  static std::map<double, PathResult> found;
+  const auto old = found.find(packing_fraction);
+  return old != found.end() ? old->second : found.emplace(packing_fraction, path_between(packing_fraction, {})).first->second;
+}
+
+void slide(benchmark::State& state, double packing_fraction) {
+  const PathResult& faithful = faithful_path(packing_fraction);
+  PathRunOptions options;
+  options.stepping = Stepping::adaptive;
   PathResult path;
   for (auto _ : state) {
-    path = run_paths(hard_sphere_binary(), {ends(packing_fraction)}, options, choose_isa("auto"), {}, monitor).front();
+    path = path_between(packing_fraction, options);
+    state.SetIterationTime(path.seconds);
+  }
+  std::string wrong = check(path);
+  if (wrong.empty() && path.length > faithful.length) wrong = "the path is longer than that of collision avoidance";
+  if (!wrong.empty()) return state.SkipWithError(wrong.c_str());
+  double rounds = 0.0;
+  for (std::size_t k = 0; k < path.corrections.size(); ++k) rounds += static_cast<double>((k + 1) * path.corrections[k]);
+  const auto steps = static_cast<double>(path.direct_steps + path.detour_steps);
+  state.counters["steps"] = steps;
+  state.counters["rounds_per_step"] = rounds / steps;
+  state.counters["us_per_step"] = 1e6 * path.seconds / steps;
+  state.counters["length"] = path.length;
+  state.counters["avoidance_length"] = faithful.length;
+  state.counters["avoidance_seconds"] = faithful.seconds;
+  state.counters["times_faster"] = faithful.seconds / path.seconds;
+  state.SetLabel(to_string(choose_isa("auto")));
+}
+
+void find_path(benchmark::State& state, double packing_fraction, kernels::ContactPotential potential) {
+  PathRunOptions options;
+  options.fictitious = potential;
+  PathResult path;
+  for (auto _ : state) {
+    path = path_between(packing_fraction, options);
     state.SetIterationTime(path.seconds);
   }
   if (const std::string wrong = check(path); !wrong.empty()) return state.SkipWithError(wrong.c_str());
@@ -76,6 +113,8 @@ void register_all() {
         std::pair{0.50, Potential::linear}, std::pair{0.57, Potential::harmonic}})
     register_run(fmt::format("hard_path/avoidance/phi:{:.2f}/{}", phi, to_string(potential)),
                  [phi = phi, potential = potential](benchmark::State& state) { find_path(state, phi, potential); });
+  for (const double phi : {0.30, 0.50, 0.57})
+    register_run(fmt::format("hard_path/slide/phi:{:.2f}", phi), [phi](benchmark::State& state) { slide(state, phi); });
 }
 
 }  // namespace
