@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 
 #include "core/aligned_array.hpp"
 #include "core/archive.hpp"
+#include "core/segment_bound.hpp"
 #include "dispatch/vector_algebra.hpp"
 
 namespace lanescape {
@@ -26,6 +28,13 @@ class SoftLandscape {
   virtual double energy_and_gradient(const AlignedArray& position, AlignedArray& gradient) = 0;
   // grad V(R) with the same bits as energy_and_gradient().
   virtual void gradient(const AlignedArray& position, AlignedArray& gradient) { energy_and_gradient(position, gradient); }
+
+  // Bounds of V along segments up to `longest` [sigma]; null where none is known.
+  virtual std::unique_ptr<SegmentBound> segment_bound(double) const { return nullptr; }
+  // Whether the bits of V depend on more than R.
+  virtual bool has_history() const { return false; }
+  // Leaves the hidden state that an evaluation at R would, so that a landscape with bounds can go without that evaluation.
+  virtual void pass_over(const AlignedArray&) {}
 
   // Archives hidden state besides R that affects the bits of V, such as the positions at which a neighbour list was built. It
   // belongs to the state of any dynamics or path on this landscape.

@@ -10,10 +10,17 @@ ContourStepper::ContourStepper(SoftLandscape& landscape, double landscape_energy
     : landscape_(&landscape),
       landscape_energy_(landscape_energy),
       options_(options),
+      bound_(landscape, options.direct_step),
       corrections_(16, 0),
       gradient_(landscape.dimension(), 0.0),
       trial_gradient_(landscape.dimension(), 0.0),
       along_(landscape.dimension(), 0.0) {}
+
+bool ContourStepper::known_forbidden(const PathPoint& at) {
+  if (!gradient_known_) return false;
+  along_goal_ = landscape_->algebra().dot(gradient_, at.to_goal);
+  return bound_.exceeds(at.position, energy_, along_goal_ / at.distance, landscape_energy_);
+}
 
 // The direction f = d - (d.n) n along the contour, kept as |R_f - R| f in along_.
 std::optional<ContourStepper::Contour> ContourStepper::find_contour(const PathPoint& at) {
@@ -22,13 +29,14 @@ std::optional<ContourStepper::Contour> ContourStepper::find_contour(const PathPo
     ++evaluations_;
     landscape_->energy_and_gradient(at.position, gradient_);
     gradient_known_ = true;
+    along_goal_ = algebra.dot(gradient_, at.to_goal);
   }
   const double slope = algebra.norm(gradient_);
   if (!(slope > 0.0)) {
     failure_ = "the direct step is forbidden and the potential is flat";
     return std::nullopt;
   }
-  algebra.axpy(along_, at.to_goal, -algebra.dot(gradient_, at.to_goal) / (slope * slope), gradient_);
+  algebra.axpy(along_, at.to_goal, -along_goal_ / (slope * slope), gradient_);
   const double along_length = algebra.norm(along_);
   if (!(along_length > 1e-12 * at.distance)) {
     failure_ = "the direction to the goal is parallel to the gradient";
@@ -39,13 +47,19 @@ std::optional<ContourStepper::Contour> ContourStepper::find_contour(const PathPo
 
 std::optional<StepKind> ContourStepper::step(const PathPoint& at, AlignedArray& next) {
   const VectorAlgebra& algebra = landscape_->algebra();
-  direct_trial(algebra, at, options_.direct_step, next);
-  ++evaluations_;
-  const double direct_energy = landscape_->energy(next);
-  if (direct_energy <= landscape_energy_) {
-    energy_ = direct_energy;
-    gradient_known_ = false;
-    return StepKind::direct;
+  const bool forbidden = known_forbidden(at);
+  if (!forbidden || landscape_->has_history()) direct_trial(algebra, at, options_.direct_step, next);
+  if (forbidden) {
+    if (landscape_->has_history()) landscape_->pass_over(next);
+  } else {
+    ++evaluations_;
+    const double direct_energy = landscape_->energy(next);
+    if (direct_energy <= landscape_energy_) {
+      energy_ = direct_energy;
+      gradient_known_ = false;
+      bound_.moved(options_.direct_step);
+      return StepKind::direct;
+    }
   }
   const std::optional<Contour> contour = find_contour(at);
   if (!contour) return std::nullopt;
@@ -58,6 +72,7 @@ std::optional<StepKind> ContourStepper::step(const PathPoint& at, AlignedArray& 
     if (energy <= landscape_energy_) {
       energy_ = energy;
       gradient_.swap(trial_gradient_);
+      bound_.moved(options_.direct_step + static_cast<double>(k) * options_.correction);
       ++corrections_[std::min<std::size_t>(k, corrections_.size() - 1)];
       return StepKind::detour;
     }
@@ -73,6 +88,7 @@ void ContourStepper::exchange(Archive& archive, const AlignedArray& position) {
   archive.field("stepper_energy", energy_);
   archive.field("evaluations", evaluations_);
   archive.field("corrections", corrections_);
+  bound_.exchange(archive);
   landscape_->exchange(archive);
   if (!archive.reading()) return;
   // Not archived: the same position gives the same gradient, to the bit.

@@ -13,6 +13,7 @@
 #include "interaction/pair/excluding_sums.hpp"
 #include "interaction/pair/nearest_rows.hpp"
 #include "interaction/pair/pair_parameters.hpp"
+#include "interaction/pair/pair_segment_bound.hpp"
 #include "interaction/pair/pair_sums.hpp"
 #include "neighbour/neighbour_list.hpp"
 
@@ -158,6 +159,18 @@ PairInteraction::Evaluation PairInteraction::energy_and_stress(const AlignedArra
   Evaluation e = with_constants(out);
   for (std::size_t k = 0; k < 6; ++k) e.virial_tensor[k] += out.virial_tensor[k];
   return e;
+}
+
+std::unique_ptr<SegmentBound> PairInteraction::segment_bound(double longest) const {
+  // Only double precision gives what the bound's rounding allows for, and excluded pairs are subtracted.
+  if (options_.precision == Precision::mixed || exclusions_) return nullptr;
+  const FloatEnvironment environment;
+  return PairSegmentBound::make(model_.in_unit(1.0 / reduced_.unit()), box_, layout_, longest);
+}
+
+void PairInteraction::pass_over(const AlignedArray& positions) {
+  const FloatEnvironment environment;
+  sums_->pass_over(reduced_.of(positions));
 }
 
 void PairInteraction::exchange(Archive& archive) { sums_->exchange(archive); }

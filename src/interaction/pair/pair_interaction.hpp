@@ -11,6 +11,7 @@
 #include "core/aligned_array.hpp"
 #include "core/archive.hpp"
 #include "core/box.hpp"
+#include "core/segment_bound.hpp"
 #include "interaction/pair/images.hpp"
 #include "interaction/pair/long_range.hpp"
 #include "interaction/pair/pair_search.hpp"
@@ -66,6 +67,11 @@ class PairInteraction {
   // Of each slot: half of each of its pairs and of its own images, and its share of the long-range correction [epsilon]; zero for
   // padding. Their sum is the energy up to rounding. A system without a list takes one for this purpose, made at each call.
   void energies(const AlignedArray& positions, AlignedArray& energies);
+
+  // Bounds of the energy along segments up to `longest` [sigma], null where none is known; they hold for this box.
+  std::unique_ptr<SegmentBound> segment_bound(double longest) const;
+  // Leaves a list as an evaluation at these positions would.
+  void pass_over(const AlignedArray& positions);
 
   // What else than positions and box the bits of a result depend on: where a list was made.
   void exchange(Archive& archive);

@@ -26,6 +26,8 @@ class PairSums {
   virtual void stress(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) = 0;
   // Takes another box for what follows.
   virtual void set_box(const PairModel& model, const Box& box) = 0;
+  // What an evaluation does to that which exchange() archives.
+  virtual void pass_over(const AlignedArray&) {}
   // What else than the positions the bits depend on.
   virtual void exchange(Archive&) {}
 };
@@ -67,6 +69,7 @@ class ListSums final : public PairSums {
   void gradient(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) override;
   void stress(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) override;
   void set_box(const PairModel&, const Box& box) override { list_.set_box(box); }
+  void pass_over(const AlignedArray& positions) override { list_.update(positions); }
   void exchange(Archive& archive) override { list_.exchange(archive); }
 
   // Per slot, half of each of its pairs. Writes to every slot that has a particle.
