@@ -56,11 +56,10 @@ PairLoss::PairLoss(const PairModel& model, const PairNumbers& numbers, double re
   find_pieces(model, numbers);
   const double range = cutoff_ + change + reach;
   range_squared_ = range * range;
-  constexpr std::size_t steps = 1024;
   steps_per_area_ = steps / range_squared_;
   const double kink = largest(cutoff_ - change, cutoff_ + change).kink;
   entries_.resize(steps + 1);
-  for (std::size_t k = 0; k <= steps; ++k) {
+  for (std::size_t k = 0; k < steps; ++k) {
     // A step more at both ends covers rounding in at().
     const double low = std::sqrt(std::max(0.0, static_cast<double>(k) - 1e-6) / steps_per_area_) - reach;
     const double high = std::sqrt((static_cast<double>(k) + 1.0 + 1e-6) / steps_per_area_) + reach;

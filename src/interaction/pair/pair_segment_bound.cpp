@@ -9,7 +9,10 @@ namespace lanescape {
 namespace {
 
 // In units of the smallest sigma. A longer reach makes passes rarer and bounds weaker.
-constexpr double relative_reach = 0.16;
+constexpr double relative_reach = 0.13;
+
+// In single precision, from positions in the box [sigma].
+double rounding_of_separations(const Box& box) { return 2e-6 * (box.length[0] + box.length[1] + box.length[2]); }
 
 }  // namespace
 
@@ -18,6 +21,7 @@ std::unique_ptr<SegmentBound> PairSegmentBound::make(const PairModel& model, con
   const double smallest = *std::min_element(model.sigma.begin(), model.sigma.end());
   // Longer segments leave nothing of the reach for the way between two passes.
   if (!PairLoss::exists(model) || !(longest <= 0.05 * smallest)) return nullptr;
+  if (!(rounding_of_separations(box) <= 0.01 * smallest)) return nullptr;
   return std::unique_ptr<SegmentBound>(new PairSegmentBound(model, box, layout, longest));
 }
 
@@ -30,24 +34,26 @@ PairSegmentBound::PairSegmentBound(const PairModel& model, const Box& box, const
       particles_(layout.size()),
       reach_(relative_reach * *std::min_element(model.sigma.begin(), model.sigma.end())) {
   // |u_i - u_j| <= sqrt 2 for a unit vector u.
-  const double change = 1.001 * std::numbers::sqrt2 * longest;
+  const double change = 1.001 * std::numbers::sqrt2 * longest, padded_reach = reach_ + rounding_of_separations(box);
   for (std::size_t ab = 0; ab < model.sigma.size(); ++ab) {
-    losses_.emplace_back(model, model.numbers(ab), reach_, change);
+    losses_.emplace_back(model, model.numbers(ab), padded_reach, change);
     // Where the nearest image of a pair changes, the slope along that axis changes its sign.
     PairLoss::Entry flip;
     if (images_ == ImageRule::minimum) flip.kink = 2.0 * losses_.back().steepest_beyond(0.5 * box.shortest() - change);
     flips_.push_back(flip);
   }
   // r^2 of the two images differs by L (L - 2 |d|), which has to be passed within `reach` of |d| = L/2.
-  flip_difference_ = 2.0 * *std::max_element(box.length.begin(), box.length.end()) * reach_;
+  flip_difference_ = 2.0 * *std::max_element(box.length.begin(), box.length.end()) * padded_reach;
   squared_.resize(slots_);
+  steps_.resize(slots_);
   next_squared_.resize(slots_);
 }
 
 void PairSegmentBound::wrap(const AlignedArray& centre) {
   wrapped_.resize(centre.size());
   for (std::size_t axis = 0; axis < 3; ++axis)
-    for (std::size_t k = axis * slots_; k < (axis + 1) * slots_; ++k) wrapped_[k] = box_.wrapped(axis, centre[k]);
+    for (std::size_t k = axis * slots_; k < (axis + 1) * slots_; ++k)
+      wrapped_[k] = static_cast<float>(box_.wrapped(axis, centre[k]));
 }
 
 // The quadratic form sum c_ij |u_i - u_j|^2 over pairs is at most 2 max_i sum_j c_ij, and sum w_ij |u_i - u_j| at most
@@ -82,34 +88,41 @@ void PairSegmentBound::add_pairs(std::size_t a, std::size_t b, Total& total) {
     add_row(i, a == b ? i + 1 : blocks_[b].begin, blocks_[b].begin + blocks_[b].count, a * species_ + b, total);
 }
 
-// Writes r^2 of the nearest images, and the least r^2 of another image.
-void PairSegmentBound::find_separations(std::size_t i, std::size_t begin, std::size_t end) {
-  const double *x = wrapped_.data(), *y = x + slots_, *z = y + slots_;
-  const double lx = box_.length[0], ly = box_.length[1], lz = box_.length[2];
-  double *squared = squared_.data(), *next = next_squared_.data();
+// Writes r^2 of the nearest images, its step, and the least r^2 of another image.
+void PairSegmentBound::find_separations(std::size_t i, std::size_t begin, std::size_t end, float steps_per_area) {
+  const float *x = wrapped_.data(), *y = x + slots_, *z = y + slots_;
+  const float xi = x[i], yi = y[i], zi = z[i];
+  const auto lx = static_cast<float>(box_.length[0]), ly = static_cast<float>(box_.length[1]),
+             lz = static_cast<float>(box_.length[2]);
+  constexpr auto last = static_cast<float>(PairLoss::steps);
+  const auto least = [](float a, float b) { return a < b ? a : b; };
+  float *squared = squared_.data(), *next = next_squared_.data();
+  std::int32_t* steps = steps_.data();
   for (std::size_t j = begin; j < end; ++j) {
-    const double ax = std::abs(x[j] - x[i]), ay = std::abs(y[j] - y[i]), az = std::abs(z[j] - z[i]);
-    const double dx = std::min(ax, lx - ax), dy = std::min(ay, ly - ay), dz = std::min(az, lz - az);
-    const double r2 = dx * dx + dy * dy + dz * dz;
+    const float ax = std::abs(x[j] - xi), ay = std::abs(y[j] - yi), az = std::abs(z[j] - zi);
+    const float dx = least(ax, lx - ax), dy = least(ay, ly - ay), dz = least(az, lz - az);
+    const float r2 = dx * dx + dy * dy + dz * dz;
     squared[j] = r2;
-    next[j] = r2 + std::min(lx * (lx - 2.0 * dx), std::min(ly * (ly - 2.0 * dy), lz * (lz - 2.0 * dz)));
+    steps[j] = static_cast<std::int32_t>(least(r2 * steps_per_area, last));
+    next[j] = r2 + least(lx * (lx - 2.0F * dx), least(ly * (ly - 2.0F * dy), lz * (lz - 2.0F * dz)));
   }
 }
 
 void PairSegmentBound::add_row(std::size_t i, std::size_t begin, std::size_t end, std::size_t ab, Total& total) {
-  find_separations(i, begin, end);
   const PairLoss& loss = losses_[ab];
-  const double range = loss.range_squared();
+  find_separations(i, begin, end, static_cast<float>(loss.steps_per_area()));
+  const auto range = static_cast<float>(loss.range_squared()), difference = static_cast<float>(flip_difference_);
+  const bool all = images_ == ImageRule::all;
   PairLoss::Entry row;
+  // Beyond the range the step is empty.
   for (std::size_t j = begin; j < end; ++j) {
-    if (!(squared_[j] < range)) continue;
-    const PairLoss::Entry& nearest = loss.at(squared_[j]);
+    const PairLoss::Entry& nearest = loss.entries()[steps_[j]];
     shares_[j].add(nearest);
     row += nearest;
-    total.pairs += 1.0;
-    if (!(next_squared_[j] < range)) continue;
-    const bool all = images_ == ImageRule::all;
-    if (!all && !(next_squared_[j] - squared_[j] < flip_difference_)) continue;
+  }
+  total.pairs += static_cast<double>(end - begin);
+  for (std::size_t j = begin; j < end; ++j) {
+    if (!(next_squared_[j] < range) || (!all && !(next_squared_[j] - squared_[j] < difference))) continue;
     const PairLoss::Entry others = all ? other_images(loss, separation(i, j), total.pairs) : flips_[ab];
     shares_[j].add(others);
     row += others;
@@ -122,7 +135,7 @@ void PairSegmentBound::add_row(std::size_t i, std::size_t begin, std::size_t end
 Point PairSegmentBound::separation(std::size_t i, std::size_t j) const {
   Point nearest{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double d = std::abs(wrapped_[axis * slots_ + j] - wrapped_[axis * slots_ + i]);
+    const double d = std::abs(static_cast<double>(wrapped_[axis * slots_ + j]) - static_cast<double>(wrapped_[axis * slots_ + i]));
     nearest[axis] = std::min(d, box_.length[axis] - d);
   }
   return nearest;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -38,7 +39,7 @@ class PairSegmentBound final : public SegmentBound {
   void wrap(const AlignedArray& centre);
   void add_pairs(std::size_t a, std::size_t b, Total& total);
   void add_row(std::size_t slot, std::size_t begin, std::size_t end, std::size_t ab, Total& total);
-  void find_separations(std::size_t slot, std::size_t begin, std::size_t end);
+  void find_separations(std::size_t slot, std::size_t begin, std::size_t end, float steps_per_area);
   Point separation(std::size_t i, std::size_t j) const;
   PairLoss::Entry other_images(const PairLoss& loss, const Point& nearest, double& pairs) const;
 
@@ -50,8 +51,10 @@ class PairSegmentBound final : public SegmentBound {
   std::vector<PairLoss> losses_;        // of each pair of species
   std::vector<PairLoss::Entry> flips_;  // of each: the jump of the slope where the nearest image changes
   double flip_difference_ = 0.0;        // [sigma^2]
-  std::vector<double> wrapped_;
-  std::vector<double> squared_, next_squared_;  // of a row [sigma^2]
+  // Single precision is enough for separations: their rounding is part of the tables' reach.
+  std::vector<float> wrapped_;
+  std::vector<float> squared_, next_squared_;  // of a row [sigma^2]
+  std::vector<std::int32_t> steps_;            // of a row, in a PairLoss
   std::vector<Share> shares_;
 };
 
