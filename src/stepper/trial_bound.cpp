@@ -41,8 +41,9 @@ void TrialBound::find_loss(const AlignedArray& here) {
   // What is left must last for some steps.
   if (known && moved_apart_ + apart * step_ <= 0.8 * reach) return;
   centre_.resize(here.size());
-  // A path keeps its direction for a while: a centre ahead of it serves for longer.
-  const double ahead = known ? 0.7 : 0.0;
+  // A path keeps its direction for a while: a centre ahead of it serves for longer, unless long steps have put it out of reach.
+  const bool near = 0.7 * moved_apart_ + apart * step_ <= 0.8 * reach;
+  const double ahead = known && near ? 0.7 : 0.0;
   for (std::size_t k = 0; k < here.size(); ++k) centre_[k] = here[k] + ahead * (here[k] - centre_[k]);
   moved_apart_ *= 1.000001 * ahead;
   loss_ = bound_->around(centre_);

@@ -164,6 +164,24 @@ TEST(SegmentBound, CountsTheJumpsOfTheSlopeAtCutoffsAndImageChanges) {
   }
 }
 
+// The pair changes its image along three axes within a short way, at different separations.
+TEST(SegmentBound, CountsChangesOfTheImageAlongSeveralAxesAtOnce) {
+  int below = 0;
+  for (int k = 0; k < 200; ++k) {
+    Configuration corner;
+    corner.box = {{2.2, 2.25, 2.3}};
+    corner.species = {0, 0};
+    const double shift = 1e-4 * (k - 100);
+    corner.positions = {0.0, 0.0, 0.0, 1.1 + shift, 1.125 - 0.5 * shift, 1.15 + 0.3 * shift};
+    System system(with(lennard_jones(), Truncation::shifted, ImageRule::minimum), corner);
+    Segments segments(system, 0.02, 5 + k);
+    const Seen seen = segments.check(system.start(), 40);
+    EXPECT_GE(seen.least_margin, 0.0) << k;
+    below += seen.below_curvature;
+  }
+  EXPECT_GT(below, 0);
+}
+
 TEST(SegmentBound, HoldsNearContactInTinyBoxesAndAtTheMinimumOfAPurelyRepulsiveForm) {
   const auto frame = [](const char* name, const PairModel& model) {
     return read_frames(std::string(LANESCAPE_TEST_DATA_DIR) + "/" + name, model).front().configuration;
@@ -188,6 +206,14 @@ TEST(SegmentBound, DoesNotExistWhereThePotentialJumpsAtItsCutoffOrIsNoLennardJon
   mie.form_numbers = {12.0, 6.0};
   System system(mie, liquid);
   EXPECT_EQ(system.landscape.segment_bound(1e-3), nullptr);
+}
+
+TEST(SegmentBound, DoesNotExistWhereItCostsMoreThanItSaves) {
+  System liquid(kob_andersen(), testing::molten_kob_andersen());
+  EXPECT_NE(liquid.landscape.segment_bound(0.02), nullptr);
+  EXPECT_EQ(liquid.landscape.segment_bound(0.021), nullptr);
+  System large(lennard_jones(), fcc_start(lennard_jones(), 16'384, 0.9, 1));
+  EXPECT_EQ(large.landscape.segment_bound(1e-3), nullptr);
 }
 
 TEST(SegmentBound, IsInfiniteWhereParticlesOverlap) {

@@ -25,8 +25,8 @@ class PairLoss {
     }
   };
 
-  // Whether there is one. A potential that jumps at its cutoff has none: over the 10^3 steps between two passes some hundred pairs
-  // of a small liquid can cross the cutoff, each for about 0.016 epsilon.
+  // Whether there is one. A potential that jumps at its cutoff has none: pairs that are within reach of the cutoff can all
+  // cross it in one segment as far as a pass knows, each for about 0.016 epsilon.
   static bool exists(const PairModel& model);
   // A pair's separation changes by at most `change` in the longest segment.
   PairLoss(const PairModel& model, const PairNumbers& numbers, double reach, double change);

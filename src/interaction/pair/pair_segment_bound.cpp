@@ -11,7 +11,14 @@ namespace {
 // In units of the smallest sigma. A longer reach makes passes rarer and bounds weaker.
 constexpr double relative_reach = 0.13;
 
-// In single precision, from positions in the box [sigma].
+// In units of the smallest sigma. A pass costs about ten evaluations, and of longer steps one pass serves for ten at most.
+constexpr double longest_segment = 0.025;
+
+// A pass takes a time of N^2. At N = 16,000 it costs 500 evaluations and serves for 900 contour steps or more; at 32,000 the
+// rounding allowed for, which grows as N^3, is 2.3 epsilon, and nothing is proven.
+constexpr std::size_t most_particles = 16'000;
+
+// Five times what rounding to single precision can do to a separation [sigma].
 double rounding_of_separations(const Box& box) { return 2e-6 * (box.length[0] + box.length[1] + box.length[2]); }
 
 }  // namespace
@@ -19,8 +26,7 @@ double rounding_of_separations(const Box& box) { return 2e-6 * (box.length[0] + 
 std::unique_ptr<SegmentBound> PairSegmentBound::make(const PairModel& model, const Box& box, const ParticleLayout& layout,
                                                      double longest) {
   const double smallest = *std::min_element(model.sigma.begin(), model.sigma.end());
-  // Longer segments leave nothing of the reach for the way between two passes.
-  if (!PairLoss::exists(model) || !(longest <= 0.05 * smallest)) return nullptr;
+  if (!PairLoss::exists(model) || layout.size() > most_particles || !(longest <= longest_segment * smallest)) return nullptr;
   if (!(rounding_of_separations(box) <= 0.01 * smallest)) return nullptr;
   return std::unique_ptr<SegmentBound>(new PairSegmentBound(model, box, layout, longest));
 }
@@ -37,16 +43,23 @@ PairSegmentBound::PairSegmentBound(const PairModel& model, const Box& box, const
   const double change = 1.001 * std::numbers::sqrt2 * longest, padded_reach = reach_ + rounding_of_separations(box);
   for (std::size_t ab = 0; ab < model.sigma.size(); ++ab) {
     losses_.emplace_back(model, model.numbers(ab), padded_reach, change);
-    // Where the nearest image of a pair changes, the slope along that axis changes its sign.
-    PairLoss::Entry flip;
-    if (images_ == ImageRule::minimum) flip.kink = 2.0 * losses_.back().steepest_beyond(0.5 * box.shortest() - change);
-    flips_.push_back(flip);
+    flips_.push_back(flip(losses_.back(), change));
   }
   // r^2 of the two images differs by L (L - 2 |d|), which has to be passed within `reach` of |d| = L/2.
   flip_difference_ = 2.0 * *std::max_element(box.length.begin(), box.length.end()) * padded_reach;
   squared_.resize(slots_);
   steps_.resize(slots_);
   next_squared_.resize(slots_);
+}
+
+// Where the nearest image changes along axis k, at |d_k| = L_k/2, the slope |phi'| |d_k| |w_k|/r of that axis changes its sign. On
+// one segment several axes can change at different r; their |d_k|/r are then components of a vector no longer than r/(r - change).
+PairLoss::Entry PairSegmentBound::flip(const PairLoss& loss, double change) const {
+  PairLoss::Entry entry;
+  if (images_ != ImageRule::minimum) return entry;
+  const double half = 0.5 * box_.shortest(), least = half - change;
+  entry.kink = least > 0.0 ? 2.0 * half / least * loss.steepest_beyond(least) : std::numeric_limits<double>::infinity();
+  return entry;
 }
 
 void PairSegmentBound::wrap(const AlignedArray& centre) {
@@ -73,8 +86,7 @@ SegmentLoss PairSegmentBound::around(const AlignedArray& centre) {
   constexpr double infinite = std::numeric_limits<double>::infinity(), epsilon = std::numeric_limits<double>::epsilon();
   // Beyond this, rounding of positions is not small beside what `reach` leaves over.
   if (!(farthest < 1e6 * reach_)) return {infinite, infinite, infinite};
-  // A sum of n terms in any order is off by at most n epsilon of the sum of their magnitudes; a term by few epsilon of its own,
-  // and by its slope times the rounding of positions.
+  // Each factor is derived in src/interaction/README.md.
   const double terms = total.pairs + static_cast<double>(particles_) + 1000.0;
   const double rounding =
       4.0 * epsilon * terms * total.energy +

@@ -36,6 +36,7 @@ class PairSegmentBound final : public SegmentBound {
   };
 
   PairSegmentBound(const PairModel& model, const Box& box, const ParticleLayout& layout, double longest);
+  PairLoss::Entry flip(const PairLoss& loss, double change) const;
   void wrap(const AlignedArray& centre);
   void add_pairs(std::size_t a, std::size_t b, Total& total);
   void add_row(std::size_t slot, std::size_t begin, std::size_t end, std::size_t ab, Total& total);
