@@ -10,16 +10,18 @@ namespace {
 // In a step of unit length two particles move apart by at most sqrt 2; the rest covers rounding.
 constexpr double apart = 1.41422;
 
-// Two particles have moved apart by at most this.
+// Two particles have moved apart by at most this: the sum of the two longest ways.
 double largest_change(const AlignedArray& from, const AlignedArray& to) {
   const std::size_t slots = from.size() / 3;
   const double *a = from.data(), *b = to.data();
-  double largest = 0.0;
+  double largest = 0.0, second = 0.0;
   for (std::size_t j = 0; j < slots; ++j) {
     const double x = b[j] - a[j], y = b[j + slots] - a[j + slots], z = b[j + 2 * slots] - a[j + 2 * slots];
-    largest = std::max(largest, x * x + y * y + z * z);
+    const double squared = x * x + y * y + z * z;
+    second = std::max(second, std::min(largest, squared));
+    largest = std::max(largest, squared);
   }
-  return 2.0 * std::sqrt(largest);
+  return std::sqrt(largest) + std::sqrt(second);
 }
 
 }  // namespace

@@ -49,9 +49,9 @@ TEST(TrialBound, RestsOnACentreWithinReachOfTheTrialHoweverLongTheLastStepWas) {
     x += length;
     bound.moved(length);
     bound.exceeds(landscape.array({x, 0.0, 0.0}), 0.0, 0.0, 0.0);
-    // Over a length l two particles move apart by at most sqrt 2 l.
-    const double way = std::fabs(landscape.point(centres.back())[0] - x) + trial_step;
-    EXPECT_LE(std::numbers::sqrt2 * way, bound_reach) << length;
+    // On the trial two particles can move apart by sqrt 2 of its length.
+    const double moved_apart = std::fabs(landscape.point(centres.back())[0] - x);
+    EXPECT_LE(moved_apart + std::numbers::sqrt2 * trial_step, bound_reach) << length;
   }
   EXPECT_LT(centres.size(), 9u);
 }
