@@ -26,8 +26,13 @@ double largest_change(const AlignedArray& from, const AlignedArray& to) {
 
 }  // namespace
 
+SegmentBound* TrialBound::bound() {
+  if (!bound_) bound_ = landscape_->segment_bound(step_);
+  return bound_->get();
+}
+
 bool TrialBound::exceeds(const AlignedArray& here, double energy, double slope, double limit) {
-  if (!bound_) return false;
+  if (!bound()) return false;
   find_loss(here);
   const double least = energy + step_ * (slope - loss_.slope) - 0.5 * step_ * step_ * loss_.curvature;
   const double rounding = loss_.rounding + 16.0 * std::numeric_limits<double>::epsilon() * (std::abs(energy) + std::abs(limit));
@@ -35,7 +40,7 @@ bool TrialBound::exceeds(const AlignedArray& here, double energy, double slope, 
 }
 
 void TrialBound::find_loss(const AlignedArray& here) {
-  const double reach = (1.0 - 1e-6) * bound_->reach();
+  const double reach = (1.0 - 1e-6) * bound()->reach();
   const bool known = centre_.size() > 0;
   if (known && moved_apart_ + apart * (walked_ + step_) <= reach) return;
   if (known) moved_apart_ = largest_change(centre_, here);
@@ -48,14 +53,14 @@ void TrialBound::find_loss(const AlignedArray& here) {
   const double ahead = known && near ? 0.7 : 0.0;
   for (std::size_t k = 0; k < here.size(); ++k) centre_[k] = here[k] + ahead * (here[k] - centre_[k]);
   moved_apart_ *= 1.000001 * ahead;
-  loss_ = bound_->around(centre_);
+  loss_ = bound()->around(centre_);
 }
 
 void TrialBound::exchange(Archive& archive) {
   archive.field("bound_centre", centre_);
   archive.field("bound_moved_apart", moved_apart_);
   archive.field("bound_walked", walked_);
-  if (archive.reading() && bound_ && centre_.size() > 0) loss_ = bound_->around(centre_);
+  if (archive.reading() && centre_.size() > 0 && bound()) loss_ = bound()->around(centre_);
 }
 
 }  // namespace lanescape

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "landscape/soft_landscape.hpp"
 
@@ -10,7 +11,7 @@ namespace lanescape {
 class TrialBound {
  public:
   // For trials a distance `step` away [sigma].
-  TrialBound(const SoftLandscape& landscape, double step) : bound_(landscape.segment_bound(step)), step_(step) {}
+  TrialBound(const SoftLandscape& landscape, double step) : landscape_(&landscape), step_(step) {}
 
   // Whether V of the trial exceeds `limit` for certain, from V here and its slope towards the trial [epsilon, epsilon/sigma].
   bool exceeds(const AlignedArray& here, double energy, double slope, double limit);
@@ -21,10 +22,13 @@ class TrialBound {
   void exchange(Archive& archive);
 
  private:
+  // Null: nothing is proven. Made at the first use: its tables cost about a hundred evaluations, and many paths go straight.
+  SegmentBound* bound();
   // Makes loss_ valid from `here` to any trial.
   void find_loss(const AlignedArray& here);
 
-  std::unique_ptr<SegmentBound> bound_;  // null: nothing is proven
+  const SoftLandscape* landscape_;
+  std::optional<std::unique_ptr<SegmentBound>> bound_;
   double step_;
   AlignedArray centre_;  // where loss_ was found; empty: nowhere yet
   SegmentLoss loss_{};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 namespace lanescape {
@@ -18,9 +19,17 @@ struct Interval {
   double magnitude() const { return std::max(std::abs(low), std::abs(high)); }
 };
 
+// r^n; faster than std::pow.
+double whole_power(double r, int n) {
+  double square = n < 0 ? 1.0 / r : r, product = 1.0;
+  for (int k = std::abs(n); k > 0; k /= 2, square *= square)
+    if (k % 2 == 1) product *= square;
+  return product;
+}
+
 // factor r^n for r from a to b: monotonic.
-Interval power(double factor, double n, double a, double b) {
-  const double x = factor * std::pow(a, n), y = factor * std::pow(b, n);
+Interval power(double factor, int n, double a, double b) {
+  const double x = factor * whole_power(a, n), y = factor * whole_power(b, n);
   return {std::min(x, y), std::max(x, y)};
 }
 
@@ -40,7 +49,7 @@ PairLoss::Entry piece(const PairNumbers& p, const PairCorrection& c, double a, d
   entry.kink = grown * slope.magnitude();
   entry.energy = value[0].magnitude() + value[1].magnitude() + std::abs(c.c0) + std::abs(c.c1) * b + std::abs(c.c2) * b * b +
                  std::abs(c.c4) * b * b * b * b;
-  entry.slope = e / p.sigma * (12.0 * std::pow(x, -13) + 6.0 * std::pow(x, -7)) + std::abs(c.c1) + std::abs(2.0 * c.c2) * b +
+  entry.slope = e / p.sigma * (12.0 * whole_power(x, -13) + 6.0 * whole_power(x, -7)) + std::abs(c.c1) + std::abs(2.0 * c.c2) * b +
                 std::abs(4.0 * c.c4) * b * b * b;
   return entry;
 }
@@ -52,7 +61,7 @@ bool PairLoss::exists(const PairModel& model) {
 }
 
 PairLoss::PairLoss(const PairModel& model, const PairNumbers& numbers, double reach, double change)
-    : cutoff_(model.cutoff * numbers.sigma), change_(change), first_(0.4 * numbers.sigma), piece_length_(reach / 64.0) {
+    : cutoff_(model.cutoff * numbers.sigma), change_(change), first_(0.4 * numbers.sigma), piece_length_(reach / 32.0) {
   find_pieces(model, numbers);
   const double range = cutoff_ + change + reach;
   range_squared_ = range * range;

@@ -34,7 +34,7 @@ class PairLoss {
   double range_squared() const { return range_squared_; }  // no loss from here on [sigma^2]
   const Entry& at(double r2) const { return entries_[static_cast<std::size_t>(r2 * steps_per_area_)]; }
   // Step k holds r^2 from k / steps_per_area(); the one after the last is empty.
-  static constexpr std::size_t steps = 1024;
+  static constexpr std::size_t steps = 512;
   double steps_per_area() const { return steps_per_area_; }
   const Entry* entries() const { return entries_.data(); }
   // Largest |phi'| from r to the cutoff, which the nearest image changes the sign of [epsilon/sigma].
