@@ -60,13 +60,25 @@ class FileMemory {
 
 }  // namespace hdf5
 
+namespace {
+
+// How an object is made: the same state makes the same file.
+Handle without_times(hid_t kind) {
+  Handle creation(H5Pcreate(kind), H5Pclose);
+  H5Pset_obj_track_times(creation.get(), false);
+  return creation;
+}
+
+}  // namespace
+
 struct Hdf5Writer::Impl {
   explicit Impl(const std::filesystem::path& path) : path_(path.string()), temporary_(path) {}
 
   void open() {
     const Handle access = file_access();
     memory_.lend(access.get());
-    file_ = Handle(H5Fcreate(temporary_.path().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose);
+    file_ =
+        Handle(H5Fcreate(temporary_.path().c_str(), H5F_ACC_TRUNC, without_times(H5P_FILE_CREATE).get(), access.get()), H5Fclose);
     const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
     const Handle attribute(H5Acreate2(file_.get(), version_attribute, H5T_STD_U64LE, space.get(), H5P_DEFAULT, H5P_DEFAULT),
                            H5Aclose);
@@ -82,8 +94,7 @@ struct Hdf5Writer::Impl {
   // `count` elements; a scalar where `shape` is H5S_SCALAR.
   void write(std::string_view name, hid_t stored, hid_t memory, H5S_class_t shape, std::size_t count, const void* data) {
     const std::size_t size = H5Tget_size(stored);
-    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    H5Pset_obj_track_times(creation.get(), false);  // the same state makes the same file
+    const Handle creation = without_times(H5P_DATASET_CREATE);
     const hsize_t extent = count;
     if (count * size <= largest_compact) {
       H5Pset_layout(creation.get(), H5D_COMPACT);
@@ -157,7 +168,8 @@ void Hdf5Writer::field(std::string_view name, std::string& value) {
 void Hdf5Writer::enter(std::string_view group) {
   const Session session;
   impl_->need_open(group);
-  Handle handle(H5Gcreate2(impl_->groups_.current(impl_->file_), std::string(group).c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+  Handle handle(H5Gcreate2(impl_->groups_.current(impl_->file_), std::string(group).c_str(), H5P_DEFAULT,
+                           without_times(H5P_GROUP_CREATE).get(), H5P_DEFAULT),
                 H5Gclose);
   if (!handle.valid())
     throw_misuse(

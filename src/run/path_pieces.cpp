@@ -69,6 +69,12 @@ void exchange_frames(Archive& archive, std::vector<Configuration>& frames, const
 
 }  // namespace
 
+std::unique_ptr<PathPieces> paths_through(const SearchSetup& whole, const std::vector<double>& point, std::size_t frames) {
+  return std::make_unique<PathPieces>(
+      whole, std::vector<PathPieces::Piece>{{point, whole.pair.start.positions, true}, {point, whole.pair.finish.positions, false}},
+      frames);
+}
+
 PreparedPair with_ends(const PreparedPair& prepared, const std::vector<double>& from, const std::vector<double>& to, Isa isa) {
   PreparedPair other = prepared;
   other.start = prepared.layout.to_slots(from);

@@ -46,6 +46,9 @@ class PathPieces final : public ResumableWork {
   PathResult joined_;
 };
 
+// The paths from a point to both ends of the pair of `whole`, joined at it. The point is 3N numbers in the user's order.
+std::unique_ptr<PathPieces> paths_through(const SearchSetup& whole, const std::vector<double>& point, std::size_t frames);
+
 // The path search between other points: same layout, metric and landscape energy.
 PreparedPair with_ends(const PreparedPair& prepared, const std::vector<double>& from, const std::vector<double>& to, Isa isa);
 

@@ -105,8 +105,8 @@ std::unique_ptr<SoftLandscape> path_landscape(const SearchSetup& setup) {
 
 void add_heterogeneity(PathResult& result, std::size_t species_count) {
   result.particle_displacements = displacements(result.frames.front(), result.frames.back());
-  result.heterogeneity = heterogeneity_widths(result.particle_lengths, result.particle_displacements,
-                                              result.frames.front().species, species_count);
+  result.heterogeneity =
+      heterogeneity_widths(result.particle_lengths, result.particle_displacements, result.frames.front().species, species_count);
 }
 
 PathResult shorter_way(PathResult forward, PathResult backward) {

@@ -29,8 +29,8 @@ struct PreparedPair {
 // Makes the landscape of soft particles on which a path runs, in positions.
 using SoftLandscapeMaker = std::function<std::unique_ptr<SoftLandscape>()>;
 
-// Throws Error(bad_input) for a pair that check_end_points() refuses, for faithful steps of hard spheres of unequal masses, and for an end above a
-// given landscape energy. Messages start with `where`.
+// Throws Error(bad_input) for a pair that check_end_points() refuses, for faithful steps of hard spheres of unequal masses, and for
+// an end above a given landscape energy. Messages start with `where`.
 PreparedPair prepare_pair(const AnyModel& model, const ConfigurationPair& pair, const std::string& where,
                           const PathRunOptions& options, Isa isa);
 // The same on any landscape of soft particles with these masses; the pair is not checked.

@@ -22,10 +22,17 @@ struct ShortenTrial {
   bool accepted;
 };
 
+// How a path was made stationary.
+struct CurveReport {
+  double length_change = 0.0;  // by the last refinement, relative to the length
+  std::uint64_t levels = 0, iterations = 0;
+};
+
 struct ShortenedPath {
   PathResult path;                             // frames: the nodes, ends included
   std::optional<double> kuhn_tucker_residual;  // PHYSICS 4; none where the nodes alone are no path
-  std::vector<ShortenTrial> trials;
+  std::vector<ShortenTrial> trials;            // of methods that make trials
+  std::optional<CurveReport> curve;            // of curve shortening
 };
 
 // What shortening starts from. All of it must outlive the work.

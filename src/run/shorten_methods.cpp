@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "run/shorten_curve.hpp"
 #include "run/shorten_method.hpp"
 #include "run/shorten_montecarlo.hpp"
 
 namespace lanescape {
 namespace {
 
-constexpr ShortenMethod shortening[] = {{"montecarlo", begin_montecarlo_shortening}};
+constexpr ShortenMethod shortening[] = {{"curve", begin_curve_shortening}, {"montecarlo", begin_montecarlo_shortening}};
 
 }  // namespace
 

@@ -1,12 +1,10 @@
 #include "run/shorten_montecarlo.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <utility>
 
-#include "configuration/model_traits.hpp"
 #include "core/random.hpp"
-#include "interaction/sphere/hard_sphere_overlap.hpp"
+#include "run/neighbour_configuration.hpp"
 #include "run/path_pieces.hpp"
 
 namespace lanescape {
@@ -14,26 +12,7 @@ namespace {
 
 // As in the source.
 constexpr std::size_t recorded_configurations = 1000;
-constexpr double largest_move = 0.10, least_displacement = 0.10;  // per axis; |R' - R| in 3N space; in units of length
 constexpr std::uint64_t allowed_failures = 5;
-// Moves of one trial before it counts as failed: a configuration so tight has no R'. Each move uses two draws of random numbers.
-constexpr std::uint32_t most_moves = 1'000'000;
-
-// Whether kinematic coordinates are allowed. Made anew for each trial, so that no list of an earlier one affects any bit.
-using AllowedRegion = std::function<bool(const AlignedArray& q)>;
-
-AllowedRegion allowed_region(const SearchSetup& setup) {
-  if (setup.options.method->is_hard) {
-    const auto spheres = std::make_shared<HardSphereOverlap>(setup.pair.start.box, setup.prepared.layout, setup.pair.start.radii,
-                                                             kernel_table(setup.isa));
-    return [spheres, metric = setup.prepared.metric](AlignedArray q) {
-      metric.to_positions(q);
-      return !spheres->any_overlap(q);
-    };
-  }
-  const std::shared_ptr<SoftLandscape> landscape = path_landscape(setup);
-  return [landscape, energy = setup.prepared.landscape_energy](const AlignedArray& q) { return landscape->energy(q) <= energy; };
-}
 
 class MonteCarloShortening final : public ShortenWork {
  public:
@@ -42,7 +21,6 @@ class MonteCarloShortening final : public ShortenWork {
         random_(setup.seed, RandomStream::shortening),
         start_(setup.start),
         algebra_(kernel_table(setup_.isa)),
-        unit_(length_unit(setup_.model)),
         path_(setup.initial) {
     record();
   }
@@ -50,7 +28,7 @@ class MonteCarloShortening final : public ShortenWork {
   bool finished() const override { return failures_ >= allowed_failures; }
   double length() const override { return path_.length; }
   bool save_due() const override { return !trial_ || trial_->save_due(); }
-  ShortenedPath result() override { return {path_, std::nullopt, trials_}; }
+  ShortenedPath result() override { return {path_, std::nullopt, trials_, std::nullopt}; }
 
   void advance(RunMonitor& monitor) override {
     if (!trial_) {
@@ -82,18 +60,12 @@ class MonteCarloShortening final : public ShortenWork {
   }
 
  private:
-  AlignedArray kinematic(const std::vector<double>& positions) const {
-    AlignedArray q = setup_.prepared.layout.to_slots(positions);
-    setup_.prepared.metric.to_kinematic(q);
-    return q;
-  }
-
   // Of the frames of `path_`, keeps those equally spaced in the distance to the end, and the ends.
   void record() {
     PathRecorder recorder(recorded_configurations, setup_.prepared.distance);
     std::vector<Configuration> kept = {path_.frames.front()};
     for (std::size_t k = 1; k + 1 < path_.frames.size(); ++k) {
-      const AlignedArray q = kinematic(path_.frames[k].positions);
+      const AlignedArray q = kinematic_coordinates(setup_, path_.frames[k].positions);
       const std::size_t before = recorder.frames().size();
       recorder.keep_frame(q, algebra_.distance(q, setup_.prepared.goal));
       if (recorder.frames().size() > before) kept.push_back(std::move(path_.frames[k]));
@@ -107,40 +79,17 @@ class MonteCarloShortening final : public ShortenWork {
     if (inner == 0) return fail({});
     const std::uint32_t picked = 1 + random_.below(inner, trials_.size(), start_, 0);
     const std::vector<double>& positions = path_.frames[picked].positions;
-    std::optional<std::vector<double>> displaced = displace(positions, monitor);
+    std::optional<std::vector<double>> displaced =
+        neighbour_configuration(setup_, positions, random_, trials_.size(), start_, monitor);
     if (!displaced) return;
-    distance_left_ = algebra_.distance(kinematic(positions), setup_.prepared.goal);
+    distance_left_ = algebra_.distance(kinematic_coordinates(setup_, positions), setup_.prepared.goal);
     displaced_ = std::move(*displaced);
     if (displaced_.empty()) return fail({});
     trial_ = paths_from_displaced();
   }
 
-  // Moves single particles until the configuration is far enough from where it was; empty if it never is. Nothing if the monitor
-  // asks to stop.
-  std::optional<std::vector<double>> displace(const std::vector<double>& from, const RunMonitor& monitor) const {
-    const AllowedRegion allowed = allowed_region(setup_);
-    const AlignedArray origin = kinematic(from);
-    std::vector<double> now = from;
-    const auto particles = static_cast<std::uint32_t>(from.size() / 3);
-    for (std::uint32_t move = 0; move < most_moves; ++move) {
-      if (move % 1000 == 999 && monitor.stop_requested()) return std::nullopt;
-      const std::size_t particle = random_.below(particles, trials_.size(), start_, 2 * move + 1);
-      const Point by = random_.uniform_point(trials_.size(), start_, 2 * move + 2);
-      std::vector<double> next = now;
-      for (std::size_t axis = 0; axis < 3; ++axis) next[3 * particle + axis] += unit_ * largest_move * (2.0 * by[axis] - 1.0);
-      const AlignedArray q = kinematic(next);
-      if (!allowed(q)) continue;
-      now = std::move(next);
-      if (algebra_.distance(q, origin) > unit_ * least_displacement) return now;
-    }
-    return std::vector<double>{};
-  }
-
   std::unique_ptr<PathPieces> paths_from_displaced() const {
-    return std::make_unique<PathPieces>(setup_,
-                                        std::vector<PathPieces::Piece>{{displaced_, setup_.pair.start.positions, true},
-                                                                       {displaced_, setup_.pair.finish.positions, false}},
-                                        2 * recorded_configurations);
+    return paths_through(setup_, displaced_, 2 * recorded_configurations);
   }
 
   void end_trial() {
@@ -181,7 +130,6 @@ class MonteCarloShortening final : public ShortenWork {
   CounterRandom random_;
   std::uint32_t start_;
   VectorAlgebra algebra_;
-  double unit_;
   PathResult path_;  // the shortest by now
   std::uint64_t failures_ = 0;
   std::vector<ShortenTrial> trials_;

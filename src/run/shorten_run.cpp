@@ -64,8 +64,9 @@ void shorten(ShortenResult& result, const Starts& starts, std::size_t count, int
     }
   });
   const bool all = std::find(interrupted.begin(), interrupted.end(), 1) == interrupted.end();
-  result.outcome = all ? Outcome::reached : Outcome::interrupted;
   keep_shortest(result, works);
+  result.outcome = all ? result.shortest.path.outcome : Outcome::interrupted;
+  if (all) result.reason = result.shortest.path.reason;
 }
 
 }  // namespace

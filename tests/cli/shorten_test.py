@@ -6,7 +6,7 @@ import signal
 import unittest
 from pathlib import Path
 
-from cli_support import ARGON, HEADER, SPHERE_HEADER, InterruptionTest, contents, frame, lanescape, one_object, without_seconds
+from cli_support import ARGON, DATA, HEADER, SPHERE_HEADER, InterruptionTest, contents, frame, lanescape, one_object, without_seconds
 
 
 def two_spheres(radii="0.5", turn=170.0):
@@ -21,7 +21,8 @@ def two_spheres(radii="0.5", turn=170.0):
 
 class Shorten(InterruptionTest):
     KEYS = {"length_before", "length", "ratio_squared", "largest_violation", "kuhn_tucker_residual", "nodes", "seconds"}
-    SPHERES = ("shorten", "--model", "hard-sphere", "--step", "1e-3")
+    MONTE_CARLO = ("shorten", "--method", "montecarlo")
+    SPHERES = (*MONTE_CARLO, "--model", "hard-sphere", "--step", "1e-3")
 
     def lines_of(self, file):
         return Path(file).read_text().splitlines()
@@ -30,7 +31,7 @@ class Shorten(InterruptionTest):
         [pair] = self.make_pairs("ends")
         for method in ("contour", "escape"):
             out = self.folder / method
-            run = lanescape("shorten", *ARGON, "--pair", pair, "--method", "montecarlo", "--path-method", method, "--frames", "5", "--out", out)
+            run = lanescape(*self.MONTE_CARLO, *ARGON, "--pair", pair, "--path-method", method, "--frames", "5", "--out", out)
             self.assertEqual((run.returncode, run.stderr), (0, ""))
             result = one_object(run.stdout)
             self.assertEqual(result, one_object((out / "result.json").read_text()))
@@ -73,29 +74,29 @@ class Shorten(InterruptionTest):
 
     def test_adaptive_steps_take_fewer_evaluations(self):
         [pair] = self.make_pairs("ends")
-        faithful, adaptive = (self.done("shorten", *ARGON, "--pair", pair, steps) for steps in ("--faithful", "--adaptive"))
+        faithful, adaptive = (self.done(*self.MONTE_CARLO, *ARGON, "--pair", pair, steps) for steps in ("--faithful", "--adaptive"))
         self.assertLess(10 * adaptive["evaluations"], faithful["evaluations"])
         self.assertAlmostEqual(adaptive["length_before"], faithful["length_before"], delta=0.05 * faithful["length_before"])
-        self.refused_cleanly("shorten", *ARGON, "--pair", pair, "--path-method", "escape", "--adaptive", says="adaptive")
+        self.refused_cleanly(*self.MONTE_CARLO, *ARGON, "--pair", pair, "--path-method", "escape", "--adaptive", says="adaptive")
 
     def test_a_written_path_is_where_it_starts_from(self):
         [pair] = self.make_pairs("ends")
         for more in ((), ("--reverse",)):
             out = self.folder / f"path{len(more)}"
             [greedy] = self.done("path", *ARGON, "--pair", pair, "--frames", "50", *more, "--out", out)["paths"]
-            result = self.done("shorten", *ARGON, "--pair", pair, "--path", out / "path-0001.extxyz")
+            result = self.done(*self.MONTE_CARLO, *ARGON, "--pair", pair, "--path", out / "path-0001.extxyz")
             self.assertAlmostEqual(result["length_before"], greedy["length"], delta=0.02 * greedy["length"])
             self.assertLessEqual(result["length"], result["length_before"])
         shorter = self.folder / "shorter"
-        first = self.done("shorten", *ARGON, "--pair", pair, "--frames", "1000", "--out", shorter)
-        again = self.done("shorten", *ARGON, "--pair", pair, "--path", shorter / "path-0001.extxyz")
+        first = self.done(*self.MONTE_CARLO, *ARGON, "--pair", pair, "--frames", "1000", "--out", shorter)
+        again = self.done(*self.MONTE_CARLO, *ARGON, "--pair", pair, "--path", shorter / "path-0001.extxyz")
         self.assertAlmostEqual(again["length_before"], first["length"], delta=0.02 * first["length"])
 
     def test_interrupted_and_killed_runs_resume_to_the_same_bits(self):
         [pair] = self.make_pairs("ends")
         given = self.folder / "given"
         self.done("path", *ARGON, "--pair", pair, "--frames", "10", "--out", given)
-        arguments = ("shorten", *ARGON, "--pair", pair, "--path", given / "path-0001.extxyz", "--step", "1e-5", "--threads", "1")
+        arguments = (*self.MONTE_CARLO, *ARGON, "--pair", pair, "--path", given / "path-0001.extxyz", "--step", "1e-5", "--threads", "1")
         whole = self.folder / "whole"
         self.done(*arguments, "--out", whole)
         cut, killed = self.folder / "cut", self.folder / "killed"
@@ -111,16 +112,52 @@ class Shorten(InterruptionTest):
         self.assert_resumes_to(cut, whole, "shorten", times=2)
         self.assert_resumes_to(killed, whole, "shorten")
 
+    def test_a_curve_is_stationary_and_its_file_proves_it(self):
+        [pair] = self.make_pairs("ends")
+        out = self.folder / "curve"
+        result = self.done("shorten", *ARGON, "--pair", pair, "--method", "curve", "--adaptive", "--frames", "7", "--out", out)
+        self.assertLessEqual(self.KEYS | {"length_change", "levels", "iterations"}, set(result))
+        self.assertEqual(result["outcome"], "reached")
+        self.assertLess(result["length"], result["length_before"])
+        self.assertGreaterEqual(result["length"], result["distance"])
+        self.assertLessEqual(result["kuhn_tucker_residual"], 1e-2)
+        self.assertLessEqual(result["largest_violation"], 1e-3)
+        self.assertLessEqual(result["length_change"], 1e-3)
+        check = self.done("shorten", "--check", out / "path-0001.h5", "--pair", pair)
+        for key in ("distance", "landscape_energy", "nodes"):
+            self.assertEqual(check[key], result[key], key)
+        for key in ("length", "largest_violation", "kuhn_tucker_residual"):
+            self.assertAlmostEqual(check[key], result[key], delta=1e-9 * (1 + abs(result[key])), msg=key)
+        self.assertEqual(len(self.lines_of(out / "path-0001.extxyz")), 9 * 34)
+        again = self.done("shorten", *ARGON, "--pair", pair, "--method", "curve", "--path", out / "path-0001.h5")
+        self.assertAlmostEqual(again["length"], result["length"], delta=1e-3 * result["length"])
+
+    def test_starts_of_a_curve_differ_and_the_shortest_is_kept(self):
+        [pair] = self.make_pairs("ends")
+        run = ("shorten", *ARGON, "--pair", pair, "--method", "curve", "--adaptive", "--starts", "4", "--seed", "5")
+        one, two = (self.done(*run, "--threads", str(threads)) for threads in (1, 2))
+        self.assertEqual(without_seconds(one), without_seconds(two))
+        self.assertEqual(len(one["start_lengths"]), 4)
+        self.assertAlmostEqual(one["length"], min(one["start_lengths"]), delta=1e-9 * one["length"])
+
+    def test_interrupted_curves_resume_to_the_same_bits(self):
+        pair = DATA / "ka108-T1-pair.extxyz"
+        arguments = ("shorten", "--pair", pair, "--method", "curve", "--adaptive", "--threads", "1")
+        whole, cut = self.folder / "whole", self.folder / "cut"
+        self.done(*arguments, "--out", whole)
+        self.assertEqual(self.interrupt(*arguments, out=cut, after="checkpoint/shorten-0001.h5", seconds=1.0)["outcome"], "interrupted")
+        self.assert_resumes_to(cut, whole, "shorten")
+
     def test_a_first_path_that_does_not_reach_its_goal_is_a_goal_not_reached(self):
         [pair] = self.make_pairs("ends")
-        result = self.done("shorten", *ARGON, "--pair", pair, "--max-steps", "50", "--out", self.folder / "limit", status=1)
+        result = self.done(*self.MONTE_CARLO, *ARGON, "--pair", pair, "--max-steps", "50", "--out", self.folder / "limit", status=1)
         self.assertEqual((result["outcome"], result["length"], result["ratio_squared"], result["nodes"]), ("step_limit", None, None, 0))
         self.assertEqual(self.done("shorten", "--resume", self.folder / "limit", status=1), result)
 
     def test_bad_paths_are_refused_in_one_line(self):
         ends = (("Ar 0 0 0", "Ar 1.3 0 0"), ("Ar 0 0 0", "Ar 1.5 0.5 0"))
         pair = self.file("pair.xyz", "".join(frame(*end) for end in ends))
-        run = ("shorten", *ARGON, "--pair", pair, "--path")
+        run = (*self.MONTE_CARLO, *ARGON, "--pair", pair, "--path")
         between = ("Ar 0 0 0", "Ar 1.4 0.25 0")
         self.done(*run, self.file("good.xyz", "".join(frame(*node) for node in (ends[0], between, ends[1]))))
         for bad, says in (((ends[0], ends[1]), "2 frames"),
@@ -149,21 +186,21 @@ class Shorten(InterruptionTest):
 
     def test_bad_options_are_refused_in_one_line(self):
         [pair] = self.make_pairs("ends")
-        run = ("shorten", *ARGON, "--pair", pair)
-        self.refused("shorten", *ARGON, says="--pair")
-        self.refused_cleanly(*run, "--method", "walk", says=("walk", "montecarlo"))
+        run = (*self.MONTE_CARLO, *ARGON, "--pair", pair)
+        self.refused(*self.MONTE_CARLO, *ARGON, says="--pair")
+        self.refused_cleanly("shorten", *ARGON, "--pair", pair, "--method", "walk", says=("walk", "montecarlo", "curve"))
         self.refused_cleanly(*run, "--path-method", "walk", says=("walk", "contour"))
         self.refused_cleanly(*run, "--path-method", "away", says="soft particles")
         self.refused_cleanly(*run, "--starts", "0", says="starts")
         self.refused_cleanly(*run, "--step", "0", says="step")
         self.refused_cleanly(*run, "--avoidance-step", "1e-4", says=("--avoidance-step", "method contour"))
         self.refused_cleanly(*run, "--landscape-energy", "-1e3", says="landscape energy")
-        self.refused("shorten", *ARGON, "--pair", pair, "--frames", "3", says=("--frames", "--out"))
+        self.refused(*self.MONTE_CARLO, *ARGON, "--pair", pair, "--frames", "3", says=("--frames", "--out"))
 
     def test_a_finished_run_repeats_and_resumes_to_its_result(self):
         [pair] = self.make_pairs("ends")
         out, again = self.folder / "out", self.folder / "again"
-        self.done("shorten", *ARGON, "--pair", pair, "--out", out)
+        self.done(*self.MONTE_CARLO, *ARGON, "--pair", pair, "--out", out)
         before = contents(out)
         self.done("shorten", "--resume", out)
         self.assertEqual(contents(out), before)

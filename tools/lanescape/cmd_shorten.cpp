@@ -101,9 +101,16 @@ Json to_json(const ShortenResult& result, const PathMethod& method, const Mixtur
   }
   json["kuhn_tucker_residual"] = shortest.kuhn_tucker_residual ? Json(*shortest.kuhn_tucker_residual) : Json();
   json["nodes"] = shortest.path.frames.size();
-  json["trials"] = shortest.trials.size();
-  json["accepted"] =
-      std::count_if(shortest.trials.begin(), shortest.trials.end(), [](const ShortenTrial& t) { return t.accepted; });
+  if (shortest.curve) {
+    json["length_change"] = shortest.curve->length_change;
+    json["levels"] = shortest.curve->levels;
+    json["iterations"] = shortest.curve->iterations;
+    for (const char* of_searches : {"steps", "lengths", "corrections"}) json.erase(of_searches);
+  } else {
+    json["trials"] = shortest.trials.size();
+    json["accepted"] =
+        std::count_if(shortest.trials.begin(), shortest.trials.end(), [](const ShortenTrial& t) { return t.accepted; });
+  }
   json["start_lengths"] = result.start_lengths;
   json["seconds"] = result.seconds;
   return json;
@@ -132,7 +139,8 @@ void write_files(OutputFolder& folder, const ShortenResult& result, const Shorte
                      state.method, isa, state.common.threads);
   path.frames = some_of(path.frames, state.path.frames);
   write_path_files(folder, 0, path, mixture_of(model));
-  folder.write("path-0001-trials.csv", [&](std::ostream& out) { write_trials(out, result.shortest.trials); });
+  if (!result.shortest.trials.empty())
+    folder.write("path-0001-trials.csv", [&](std::ostream& out) { write_trials(out, result.shortest.trials); });
 }
 
 Json run_path_check(ShortenState& state, Options& options, Isa isa) {

@@ -15,16 +15,18 @@ constexpr std::uint64_t most_tightenings = 12;
 
 }  // namespace
 
-CurveShortening::CurveShortening(const VectorAlgebra& algebra, std::unique_ptr<CurveRelaxation> relaxation, const Polyline& start,
+CurveShortening::CurveShortening(const VectorAlgebra& algebra, std::unique_ptr<CurveRelaxation> relaxation,
                                  const CurveOptions& options)
-    : algebra_(&algebra), relaxation_(std::move(relaxation)), options_(options) {
-  check_polyline(algebra, start);
-  const double length = polyline_length(algebra, start);
+    : algebra_(&algebra), relaxation_(std::move(relaxation)), options_(options) {}
+
+void CurveShortening::begin(const Polyline& start) {
+  check_polyline(*algebra_, start);
+  const double length = polyline_length(*algebra_, start);
   std::size_t nodes = std::max(fewest_nodes, 1 + static_cast<std::size_t>(std::ceil(length / options_.coarse_spacing)));
   // Nodes far apart may lie deep in the forbidden region, from where no gradient leads back; those of the path itself do not.
   for (;; nodes = 2 * nodes - 1) {
     try {
-      begin_level(resampled(algebra, start, std::min(nodes, options_.most_nodes)));
+      begin_level(resampled(*algebra_, start, std::min(nodes, options_.most_nodes)));
       return;
     } catch (const Error&) {
       if (nodes >= options_.most_nodes || nodes > 4 * start.size()) throw;
@@ -77,7 +79,9 @@ void CurveShortening::exchange(Archive& archive) {
   archive.field("last_length", last_length_);
   archive.field("length_change", length_change_);
   archive.field("reason", reason_);
+  archive.enter("relaxation");
   relaxation_->exchange(archive);
+  archive.leave();
 }
 
 }  // namespace lanescape

@@ -20,10 +20,11 @@ struct CurveOptions {
 // its length no longer changes; then its segments are made to keep to the allowed region. Long moves are made where they are cheap.
 class CurveShortening {
  public:
-  // From the nodes of any path whose ends are allowed. Throws Error(goal_not_reached) where its nodes cannot be moved into the
-  // allowed region.
-  CurveShortening(const VectorAlgebra& algebra, std::unique_ptr<CurveRelaxation> relaxation, const Polyline& start,
-                  const CurveOptions& options);
+  CurveShortening(const VectorAlgebra& algebra, std::unique_ptr<CurveRelaxation> relaxation, const CurveOptions& options);
+
+  // Starts from the nodes of any path whose ends are allowed. Throws Error(goal_not_reached) where its nodes cannot be moved into
+  // the allowed region. All else needs this first, or exchange() that reads.
+  void begin(const Polyline& start);
 
   bool finished() const { return finished_ != 0; }
   // Why it ended without a stationary path; empty otherwise.

@@ -32,6 +32,7 @@ struct Case {
       word.remove_prefix(adaptive.size());
       options.search.stepping = Stepping::adaptive;
     }
+    options.method = &shorten_method("montecarlo");
     options.search.method = &path_method(word);
     if (!options.search.method->is_hard) return;
     model = hard_sphere();
@@ -261,7 +262,7 @@ TEST(Shorten, RefusesOptionsOutOfRange) {
 
 TEST(ShortenMethod, HasWordsThatAreReadBack) {
   for (const ShortenMethod& method : shorten_methods()) EXPECT_EQ(&shorten_method(method.word), &method);
-  EXPECT_EQ(std::string(default_shorten_method().word), "montecarlo");
+  EXPECT_EQ(std::string(default_shorten_method().word), "curve");
   EXPECT_EQ(refusal([] { shorten_method("walk"); }), "unknown method 'walk': allowed: " + shorten_method_words());
 }
 
