@@ -7,6 +7,7 @@ Reads the files that `lanescape path`, `shorten`, `endpoints`, `diffusion`, `ins
   path-0001-trace.csv ...   one for each path in result.json
   path-0001.extxyz ...      only the first line, the number of particles (optional)
   path-0001-steps.csv, path-0001-particles.csv     histograms over steps, path lengths of particles (optional)
+  initial-0001-nodes.csv, path-0001-nodes.csv      nodes of a path before and after shortening
   path-0001-trials.csv      lengths that the trials of a shortening found
   endpoints-trace.csv, radial-distribution.csv     if the run made end points
   diffusion.csv             correlations and displacements
@@ -18,6 +19,8 @@ Writes into DIR:
   path-0001.png ...   energy, distance to the goal, share of direct steps and participation ratio along the path
   paths.png           (DeltaR/g)^2 and n/N of all paths with mean and standard error, if two or more paths reached their goal
   statistics.png      distributions over the steps of all paths, and of the path lengths of particles over their displacements
+  shortened.png       gap to the boundary, distance to the goal, multipliers and participation ratio along the path before and after
+                      shortening
   shortening.png      path length against trials
   diffusion.png       velocity correlation, its integral and the mean squared displacement
   equilibration.png   temperature, potential energy, energy drift and radial distribution functions; for hard spheres
@@ -46,7 +49,7 @@ from plot_equilibration import draw_equilibration, read_equilibration
 from plot_insertion import draw_insertion, read_insertion
 from plot_path import draw_path, draw_paths, read_paths
 from plot_path_statistics import draw_statistics, read_histograms, read_particle_ratios
-from plot_shortening import draw_shortening, read_trials
+from plot_shortening import draw_shortened, draw_shortening, read_shortened, read_trials
 from plot_slab import draw_slab, read_slab
 from plot_style import read_result, read_run_file
 from unusable import Unusable, exit_status
@@ -63,8 +66,9 @@ def draw_folder(folder):
     paths = read_paths(folder, result)
     histograms, ratios = read_histograms(folder, paths), read_particle_ratios(folder, paths)
     equilibration, diffusion = read_equilibration(folder), read_diffusion(folder)
-    insertion, slab, trials = read_insertion(folder), read_slab(folder), read_trials(folder)
-    if not paths and not insertion and all(table is None for table in (equilibration, diffusion, slab, trials)):
+    insertion, slab = read_insertion(folder), read_slab(folder)
+    trials, shortened = read_trials(folder), read_shortened(folder, result)
+    if not paths and not insertion and all(table is None for table in (equilibration, diffusion, slab, trials, shortened)):
         raise Unusable(
             f"{folder}: neither paths in result.json nor a table of a shortening, end points, diffusion, insertion or a slab: nothing to draw")
     made = {**result, "model": result.get("model") or run.get("model", "")}
@@ -76,6 +80,8 @@ def draw_folder(folder):
     if diffusion is not None:
         draw_diffusion(folder, diffusion, made, temperature)
     draw_insertion(folder, insertion, made, run)
+    if shortened is not None:
+        draw_shortened(folder, shortened, made, temperature)
     if trials is not None:
         draw_shortening(folder, trials, result)
     if slab is not None:

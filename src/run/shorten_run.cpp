@@ -91,6 +91,7 @@ ShortenResult run_shorten(const AnyModel& model, const ConfigurationPair& pair, 
   result.reason = before.reason;
   result.length_before = before.length;
   result.seconds = initial.clock().seconds();
+  result.initial = before.frames;
   if (result.outcome != Outcome::reached) return result;
   SharedProgress progress(monitor, "trials", options.starts, 0.0);
   shorten(result, {search, before, options, checkpoint, progress}, options.starts, options.search.threads);

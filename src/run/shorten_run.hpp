@@ -24,7 +24,8 @@ struct ShortenResult {
   // `reached` if the method ended by its own rule; else what ended the search for the first path, or an interruption.
   Outcome outcome = Outcome::running;
   std::string reason;
-  double length_before = 0.0;  // of the path that was shortened [sigma]
+  double length_before = 0.0;          // of the path that was shortened [sigma]
+  std::vector<Configuration> initial;  // recorded along that path, ends included; about 1000
   ShortenedPath shortest;
   std::vector<double> start_lengths;  // of each start [sigma]
   double seconds = 0.0;               // of all starts and of the first path

@@ -50,13 +50,31 @@ class Shorten(InterruptionTest):
             kept = [float(row["length"]) for row in rows if row["accepted"] == "1"]
             self.assertEqual(len(kept), result["accepted"])
             self.assertEqual(([result["length_before"]] + kept)[-1], result["length"])
+            self.assert_nodes(out / "initial-0001-nodes.csv", result["distance"], result["length_before"])
+            self.assert_nodes(out / "path-0001-nodes.csv", result["distance"], result["length"])
             lines, ends = self.lines_of(out / "path-0001.extxyz"), self.lines_of(pair)
             self.assertEqual(len(lines), 7 * 34)
             self.assertEqual((lines[2:34], lines[-32:]), (ends[2:34], ends[-32:]))
 
+    def assert_nodes(self, file, distance, length):
+        """Nodes of a path of this length, in the allowed region. Steps between them may be a detour."""
+        rows = [{name: float(value) for name, value in row.items()} for row in csv.DictReader(self.lines_of(file))]
+        self.assertEqual((rows[0]["length"], rows[0]["distance_to_goal"], rows[-1]["distance_to_goal"]), (0.0, distance, 0.0))
+        self.assertTrue(distance * (1 - 1e-12) <= rows[-1]["length"] <= length * (1 + 1e-12))
+        for before, row in zip(rows, rows[1:]):
+            self.assertGreater(row["length"], before["length"])
+        for row in rows:
+            self.assertTrue(1 / 32 <= row["participation_ratio"] <= 1.0)
+            self.assertTrue(0.0 <= row["multiplier"] <= 2.0)
+            self.assertLessEqual(row.get("excess", 0.0), 1e-4 * (1 + 1e-9))
+            self.assertGreaterEqual(row.get("smallest_gap", 0.0), 0.0)
+
     def test_two_spheres_come_near_the_geodesic(self):
         pair = self.file("two.xyz", two_spheres())
-        result = self.done(*self.SPHERES, "--pair", pair, "--starts", "20")
+        out = self.folder / "out"
+        result = self.done(*self.SPHERES, "--pair", pair, "--starts", "20", "--out", out)
+        for name in ("initial", "path"):
+            self.assert_nodes(out / f"{name}-0001-nodes.csv", result["distance"], result["length" if name == "path" else "length_before"])
         self.assertEqual(len(result["start_lengths"]), 20)
         self.assertEqual(result["length"], min(result["start_lengths"]))
         geodesic = 6.1620 / math.sqrt(2)

@@ -61,6 +61,28 @@ class Plot(PlotTest):
                     ["1,5,21,0", "2,4,nan,0", "3,8,18,1", "4,2,19,0"])
         self.assert_draws("shortening.png")
 
+    def write_shortened(self, column="excess", nodes=200):
+        (self.folder / "result.json").write_text(
+            json.dumps({"length_before": 20.0, "length": 15.0, "distance": 10.0, "model": "kob-andersen"}))
+        for name, length in (("initial-0001", 20.0), ("path-0001", 15.0)):
+            write_table(self.folder / f"{name}-nodes.csv", f"length,distance_to_goal,{column},multiplier,participation_ratio",
+                        [f"{length * k / (nodes - 1)},{10.0 * (1 - k / (nodes - 1))},{(k % 7) * (0.1 if column != 'excess' else -0.1)},{0.01 * (k % 3)},{0.3 + 0.01 * (k % 5)}" for k in range(nodes)])
+
+    def test_a_path_before_and_after_shortening_gives_a_figure(self):
+        for column in ("excess", "smallest_gap"):
+            self.write_shortened(column)
+            self.assert_draws("shortened.png")
+
+    def test_a_shortened_path_of_three_nodes_can_be_drawn(self):
+        self.write_shortened(nodes=3)
+        self.assert_draws("shortened.png")
+
+    def test_damaged_nodes_are_refused(self):
+        self.write_shortened(column="potential")
+        self.assert_refuses("initial-0001-nodes.csv: no column excess")
+        self.write_shortened(nodes=2)
+        self.assert_refuses("initial-0001-nodes.csv: fewer than 3 nodes")
+
     def test_equal_ratios_can_be_drawn(self):
         self.write_run([path_summary(), path_summary()], rows=5)
         self.assert_draws("path-0001.png", "path-0002.png", "paths.png")

@@ -17,6 +17,7 @@
 #include "path_report.hpp"
 #include "plot.hpp"
 #include "run/given_path.hpp"
+#include "run/path_nodes.hpp"
 #include "run/shorten_run.hpp"
 
 namespace lanescape::program {
@@ -131,12 +132,37 @@ std::vector<Configuration> some_of(const std::vector<Configuration>& nodes, std:
   return chosen;
 }
 
+// The last recorded point of a path may be its end.
+std::vector<Configuration> without_repeats(std::vector<Configuration> nodes) {
+  const auto same = [](const Configuration& a, const Configuration& b) { return a.positions == b.positions; };
+  nodes.erase(std::unique(nodes.begin(), nodes.end(), same), nodes.end());
+  return nodes;
+}
+
+// Where the nodes allow it: those of a path that is found step by step are a few of its points, which may be fewer than 3. That is
+// no reason to lose a result.
+std::optional<CheckedPath> certificate(const std::vector<Configuration>& nodes, const AnyModel& model,
+                                       std::optional<double> landscape_energy, Isa isa, int threads, bool needed) {
+  try {
+    return check_path(model, nodes, landscape_energy, isa, {.threads = threads});
+  } catch (const Error&) {
+    if (needed) throw;
+    return std::nullopt;
+  }
+}
+
 void write_files(OutputFolder& folder, const ShortenResult& result, const ShortenState& state, const AnyModel& model, Isa isa) {
   if (result.shortest.path.frames.empty()) return;
   PathResult path = result.shortest.path;
-  if (result.shortest.kuhn_tucker_residual)
-    write_whole_path(folder, 0, model, path.frames, is_hard(model) ? std::nullopt : std::optional(path.landscape_energy),
-                     state.method, isa, state.common.threads);
+  const std::optional<double> landscape_energy = is_hard(model) ? std::nullopt : std::optional(path.landscape_energy);
+  const bool whole = result.shortest.kuhn_tucker_residual.has_value();
+  const auto write_nodes = [&](const char* name, const std::vector<Configuration>& nodes, bool needed) {
+    const auto checked = certificate(nodes, model, landscape_energy, isa, state.common.threads, needed);
+    if (needed) write_whole_path(folder, 0, model, nodes, landscape_energy, checked->check, state.method, isa);
+    if (checked) folder.write(name, [&](std::ostream& out) { write_node_table(out, model, nodes, checked->check, isa); });
+  };
+  write_nodes("initial-0001-nodes.csv", without_repeats(result.initial), false);
+  write_nodes("path-0001-nodes.csv", whole ? path.frames : without_repeats(path.frames), whole);
   path.frames = some_of(path.frames, state.path.frames);
   write_path_files(folder, 0, path, mixture_of(model));
   if (!result.shortest.trials.empty())
@@ -203,7 +229,8 @@ Subcommand add_shorten(CLI::App& app) {
   state->path.add_to(*options, "--path-method");
   options->add("--frames", state->path.frames, "configurations of the path to write between its ends")
       .only_for({runs_with_a_folder});
-  options->add_flag("--plot", state->plot, "draw the lengths that were found (needs --out)").only_for({runs_with_a_folder});
+  options->add_flag("--plot", state->plot, "draw both paths and the lengths that were found (needs --out)")
+      .only_for({runs_with_a_folder});
   options->end_group();
   options
       ->add("--overlap-tolerance", state->overlap_tolerance,

@@ -1,7 +1,10 @@
 #include "path_check_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "configuration/model_traits.hpp"
@@ -54,11 +57,26 @@ Json check_file(const std::string& file, const PathFile& path, const std::string
 }
 
 void write_whole_path(const OutputFolder& folder, std::size_t number, const AnyModel& model,
-                      const std::vector<Configuration>& nodes, std::optional<double> landscape_energy, const std::string& method,
-                      Isa isa, int threads) {
-  const CheckedPath found = check_path(model, nodes, landscape_energy, isa, {.threads = threads});
+                      const std::vector<Configuration>& nodes, std::optional<double> landscape_energy, const PathCheck& check,
+                      const std::string& method, Isa isa) {
   write_path_file(folder.path() / fmt::format("path-{:04}.h5", number + 1),
-                  path_file(model, nodes, landscape_energy, found.check, method, isa));
+                  path_file(model, nodes, landscape_energy, check, method, isa));
+}
+
+void write_node_table(std::ostream& out, const AnyModel& model, const std::vector<Configuration>& nodes, const PathCheck& check,
+                      Isa isa) {
+  const Polyline path = path_nodes(model, nodes).nodes;
+  const VectorAlgebra algebra(kernel_table(isa));
+  fmt::print(out, "length,distance_to_goal,{},multiplier,participation_ratio\n", is_hard(model) ? "smallest_gap" : "excess");
+  double length = 0.0;
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    // Of the segment that ends here; at the start, of the one that begins there.
+    const std::size_t end = std::max<std::size_t>(k, 1);
+    const auto moments = algebra.displacement_moments(path[end - 1], path[end]);
+    if (k > 0) length += std::sqrt(moments.second);
+    fmt::print(out, "{},{},{},{},{}\n", length, algebra.distance(path[k], path.back()), check.excess[k], check.multipliers[k],
+               moments.second * moments.second / moments.fourth / static_cast<double>(nodes[k].size()));
+  }
 }
 
 }  // namespace lanescape::program

@@ -2,7 +2,9 @@
 
 #include <filesystem>
 #include <optional>
+#include <ostream>
 #include <string>
+#include <vector>
 
 #include "program.hpp"
 #include "run/path_file.hpp"
@@ -19,7 +21,10 @@ Json check_file(const std::string& file, const PathFile& path, const std::string
 
 // Writes a path that is given by all of its nodes, with its certificate, to DIR/path-0001.h5 of number 0.
 void write_whole_path(const OutputFolder& folder, std::size_t number, const AnyModel& model,
-                      const std::vector<Configuration>& nodes, std::optional<double> landscape_energy, const std::string& method,
-                      Isa isa, int threads);
+                      const std::vector<Configuration>& nodes, std::optional<double> landscape_energy, const PathCheck& check,
+                      const std::string& method, Isa isa);
+// A row for each node: what a figure along the path shows (docs/FORMATS.md).
+void write_node_table(std::ostream& out, const AnyModel& model, const std::vector<Configuration>& nodes, const PathCheck& check,
+                      Isa isa);
 
 }  // namespace lanescape::program
