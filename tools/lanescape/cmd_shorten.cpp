@@ -140,11 +140,16 @@ std::vector<Configuration> without_repeats(std::vector<Configuration> nodes) {
 }
 
 // Where the nodes allow it: those of a path that is found step by step are a few of its points, which may be fewer than 3. That is
-// no reason to lose a result.
+// no reason to lose a result. Between two of them the path may touch the boundary: they count as on it from farther away.
 std::optional<CheckedPath> certificate(const std::vector<Configuration>& nodes, const AnyModel& model,
                                        std::optional<double> landscape_energy, Isa isa, int threads, bool needed) {
+  PathCheckOptions options{.threads = threads};
+  if (!needed) {
+    options.boundary_tolerance = 0.1;
+    options.contact_tolerance = 1e-2;
+  }
   try {
-    return check_path(model, nodes, landscape_energy, isa, {.threads = threads});
+    return check_path(model, nodes, landscape_energy, isa, options);
   } catch (const Error&) {
     if (needed) throw;
     return std::nullopt;
