@@ -86,6 +86,7 @@ class Finder {
   void advance(const Point& next) {
     sum_.add(combine(next, -1.0, path_.end));
     path_.end = next;
+    if (path_.accepted.size() < options_.record) path_.accepted.push_back(next);
   }
 
   Geodesic stop(Outcome outcome, const char* reason) {

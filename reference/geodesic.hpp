@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -22,6 +23,7 @@ struct GeodesicOptions {
   long max_steps = 10'000'000;             // accepted steps
   long max_inner = 10'000;                 // trials of one contour step, iterations of one escape step
   long patience = 1000;                    // accepted steps in which the distance to R_f does not decrease
+  std::size_t record = 0;                  // number of accepted steps to keep
 };
 
 struct Geodesic {
@@ -30,10 +32,11 @@ struct Geodesic {
   double length = 0.0;      // [sigma], last hop to R_f included
   long direct_steps = 0;    // accepted steps by kind, without the last hop
   long contour_steps = 0;
-  long escape_steps = 0;          // one for each return to V <= E_L + dV, whatever the number of iterations
-  double participation = 0.0;     // mean of (sum_j dr_j^2)^2 / sum_j dr_j^4 weighted with step length, [G] Eq. 4.17
-  double landscape_energy = 0.0;  // [epsilon], E_L
-  std::vector<double> end;        // the last configuration; R_f if reached
+  long escape_steps = 0;                      // one for each return to V <= E_L + dV, whatever the number of iterations
+  double participation = 0.0;                 // mean of (sum_j dr_j^2)^2 / sum_j dr_j^4 weighted with step length, [G] Eq. 4.17
+  double landscape_energy = 0.0;              // [epsilon], E_L
+  std::vector<double> end;                    // the last configuration; R_f if reached
+  std::vector<std::vector<double>> accepted;  // configurations after the first steps, at most `record` of them
 };
 
 /// Path from `start` to `finish` (3N each, unwrapped [sigma]) with V(R) <= E_L (contour) or V(R) <= E_L + dV (escape).
