@@ -135,8 +135,9 @@ ShortPath shorten_path(Landscape& landscape, std::span<const double> start, std:
 
 PathCertificate check_path(const Model& model, std::span<const int> species, const std::array<double, 3>& box, const Frames& frames,
                            const CheckSettings& settings, std::span<const double> diameters) {
+  const Configuration particles = particles_of(model, species, box, diameters);
   check_settings(settings, frames.size());
-  const std::vector<Configuration> path = placed_frames(particles_of(model, species, box, diameters), frames);
+  const std::vector<Configuration> path = placed_frames(particles, frames);
   return certificate_of(check_path(detail::Access::of(model), path, settings.landscape_energy, choose_isa(settings.instruction_set),
                                    {.threads = settings.threads}));
 }
@@ -147,8 +148,8 @@ PathCertificate check_path(Landscape& landscape, const Frames& frames, const Che
     return check_path(potential->model(), potential->species(), potential->box(), frames,
                       {settings.landscape_energy, potential->options().threads, potential->options().instruction_set},
                       potential->options().diameters);
-  check_settings(settings, frames.size());
   const HostParticles host(landscape, masses);
+  check_settings(settings, frames.size());
   const PathNodes nodes = path_nodes(host.mixture(), host.layout(), placed_frames(host.particles(), frames));
   const Isa isa = choose_isa(settings.instruction_set);
   return certificate_of(check_path_on(host.maker(isa), nodes, settings.landscape_energy, isa));
