@@ -106,6 +106,20 @@ TEST(ShortenPath, OnAHostsLandscapeIsThatOfTheModelBehindIt) {
   }
 }
 
+TEST(ShortenPath, ByItsCurveIsTheGeodesicOfTwoSpheres) {
+  Nearness soft;
+  ShortenSettings settings = by("curve");
+  settings.search.landscape_energy = 0.0;
+  settings.search.adaptive = true;
+  const ShortPath path = shorten_path(soft, turned(3.0, 0.0), turned(3.0, 170.0), settings);
+  EXPECT_TRUE(path.reached()) << path.reason;
+  EXPECT_NEAR(path.length, 6.1620 / std::numbers::sqrt2, 1e-4 * path.length);
+  const PathCertificate certificate = check_path(soft, path.frames, {.landscape_energy = 0.0});
+  EXPECT_EQ(path.kuhn_tucker_residual, certificate.kuhn_tucker_residual);
+  EXPECT_EQ(path.multipliers, certificate.multipliers);
+  EXPECT_EQ(path.largest_violation, certificate.largest_violation);
+}
+
 TEST(ShortenPath, StartsFromAGivenPathThatMayRunTheOtherWay) {
   OfAHost host;
   Frames frames = find_path(lj, two, cube, start, finish, {.frames = 20}).frames;
