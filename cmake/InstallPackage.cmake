@@ -41,7 +41,8 @@ endif()
 # For C, and for Fortran with the module of bindings/fortran.
 lanescape_install_component(C lanescape_c)
 install(FILES ${PROJECT_SOURCE_DIR}/src/api/lanescape/lanescape.h ${PROJECT_SOURCE_DIR}/src/api/lanescape/dynamics.h
-              ${PROJECT_SOURCE_DIR}/src/api/lanescape/states.h ${PROJECT_BINARY_DIR}/generated/lanescape/version.h
+              ${PROJECT_SOURCE_DIR}/src/api/lanescape/shortening.h ${PROJECT_SOURCE_DIR}/src/api/lanescape/states.h
+              ${PROJECT_BINARY_DIR}/generated/lanescape/version.h
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lanescape COMPONENT C)
 
 file(RELATIVE_PATH LANESCAPE_PC_TO_PREFIX ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})

@@ -13,7 +13,8 @@ module lanescape
   use lanescape_landscapes, only: lanescape_landscape
   use lanescape_progress_reports, only: lanescape_progress
   use lanescape_end_point_pairs
-  use lanescape_paths
+  use lanescape_paths, only: lanescape_path, lanescape_path_settings
+  use lanescape_short_paths
   use lanescape_trajectories
   use lanescape_collisions
   implicit none

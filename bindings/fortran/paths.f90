@@ -7,6 +7,7 @@ module lanescape_paths
   use lanescape_progress_reports
   implicit none
   private
+  public :: translate_path_settings
 
   ! How a path is searched; 0 and blanks stand for the library's own choice.
   type, public :: lanescape_path_settings
@@ -38,7 +39,7 @@ module lanescape_paths
   end type lanescape_path
 
   ! Structs, with their members in the header's order.
-  type, bind(c) :: settings_c
+  type, bind(c), public :: path_settings_c
     integer(c_size_t) :: size = 0
     type(c_ptr) :: method = c_null_ptr
     real(c_double) :: step = 0, avoidance_step = 0
@@ -51,7 +52,7 @@ module lanescape_paths
     type(c_funptr) :: progress = c_null_funptr
     type(c_ptr) :: progress_user = c_null_ptr
     integer(c_int) :: adaptive = 0
-  end type settings_c
+  end type path_settings_c
 
   type, bind(c) :: summary_c
     integer(c_size_t) :: size = 0
@@ -66,7 +67,7 @@ module lanescape_paths
   interface
     integer(c_int) function settings_init_c(settings, size) bind(c, name="lanescape_path_settings_init")
       import
-      type(settings_c), intent(inout) :: settings
+      type(path_settings_c), intent(inout) :: settings
       integer(c_size_t), value :: size
     end function settings_init_c
     integer(c_int) function find_path_c(model, particles, species, box, start, finish, diameters, settings, path) &
@@ -76,7 +77,7 @@ module lanescape_paths
       integer(c_size_t), value :: particles
       integer(c_int), intent(in) :: species(*)
       real(c_double), intent(in) :: box(3), start(*), finish(*)
-      type(settings_c), intent(in) :: settings
+      type(path_settings_c), intent(in) :: settings
       type(c_ptr), intent(inout) :: path
     end function find_path_c
     integer(c_int) function find_path_on_c(landscape, start, finish, masses, settings, path) bind(c, name="lanescape_find_path_on")
@@ -84,7 +85,7 @@ module lanescape_paths
       type(landscape_c), intent(in) :: landscape
       real(c_double), intent(in) :: start(*), finish(*)
       type(c_ptr), value :: masses
-      type(settings_c), intent(in) :: settings
+      type(path_settings_c), intent(in) :: settings
       type(c_ptr), intent(inout) :: path
     end function find_path_on_c
     integer(c_int) function summarise_c(path, summary) bind(c, name="lanescape_path_summarise")
@@ -120,13 +121,13 @@ contains
     character(*), intent(inout), optional :: errmsg
     type(host_progress), target :: progress
     character(kind=c_char), allocatable, target :: chars(:, :)
-    type(settings_c) :: s
+    type(path_settings_c) :: s
     type(c_ptr) :: address, handle
     integer(c_int) :: status
     if (.not. check_shape("start", start, size(species), stat, errmsg)) return
     if (.not. check_shape("finish", finish, size(species), stat, errmsg)) return
     if (.not. fits("diameters", diameters, size(species), address, stat, errmsg)) return
-    call translate(settings, progress, s, chars)
+    call translate_path_settings(settings, progress, s, chars)
     status = find_path_c(model%handle(), size(species, kind=c_size_t), species - 1, box, start, finish, address, s, handle)
     call keep(self, status, handle, stat, errmsg)
   end subroutine find_on_model
@@ -143,7 +144,7 @@ contains
     type(host_landscape), target :: host
     type(host_progress), target :: progress
     character(kind=c_char), allocatable, target :: chars(:, :)
-    type(settings_c) :: s
+    type(path_settings_c) :: s
     type(c_ptr) :: address, handle
     integer(c_int) :: status
     host%evaluate => landscape
@@ -151,16 +152,16 @@ contains
     if (.not. check_shape("start", start, host%particles, stat, errmsg)) return
     if (.not. check_shape("finish", finish, host%particles, stat, errmsg)) return
     if (.not. fits("masses", masses, host%particles, address, stat, errmsg)) return
-    call translate(settings, progress, s, chars)
+    call translate_path_settings(settings, progress, s, chars)
     status = find_path_on_c(landscape_of(host), start, finish, address, s, handle)
     call keep(self, status, handle, stat, errmsg)
   end subroutine find_on_landscape
 
   ! Settings for C, whose words are in `chars` and whose procedure is in `progress`.
-  subroutine translate(settings, progress, s, chars)
+  subroutine translate_path_settings(settings, progress, s, chars)
     type(lanescape_path_settings), intent(in), optional, target :: settings
     type(host_progress), target, intent(inout) :: progress
-    type(settings_c), intent(out) :: s
+    type(path_settings_c), intent(out) :: s
     character(kind=c_char), allocatable, target, intent(out) :: chars(:, :)
     type(c_ptr), allocatable :: addresses(:)
     if (settings_init_c(s, c_sizeof(s)) /= lanescape_ok .or. .not. present(settings)) return
@@ -182,7 +183,7 @@ contains
     progress%report => settings%progress
     s%progress = c_funloc(progress_c)
     s%progress_user = c_loc(progress)
-  end subroutine translate
+  end subroutine translate_path_settings
 
   ! Keeps a path that was found, and ends the call.
   subroutine keep(self, status, handle, stat, errmsg)

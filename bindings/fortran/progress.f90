@@ -7,7 +7,8 @@ module lanescape_progress_reports
   public :: lanescape_progress, host_progress, progress_c
 
   abstract interface
-    ! Called now and then with the part done, 0 ... 1. stop is false on entry; true ends the work early.
+    ! Called now and then with the part done, 0 ... 1, or where paths are shortened with the number of iterations or trials made.
+    ! stop is false on entry; true ends the work early.
     subroutine lanescape_progress(done, stop)
       import :: dp
       real(dp), intent(in) :: done

@@ -35,3 +35,7 @@ const char* lanescape_model_name(size_t index) {
 const char* lanescape_pair_potential(size_t index) {
   return word_of([] { return pair_potentials(); }, index);
 }
+
+const char* lanescape_shorten_method(size_t index) {
+  return word_of([] { return shorten_method_names(); }, index);
+}

@@ -1,4 +1,6 @@
-#include <lanescape/path.hpp>
+#include "capi/path.hpp"
+
+#include <string>
 
 #include "capi/arguments.hpp"
 #include "capi/callbacks.hpp"
@@ -9,9 +11,9 @@ using namespace lanescape::capi;
 
 struct lanescape_path : Handle<Path> {};
 
-namespace {
+namespace lanescape::capi {
 
-PathSettings settings_of(const lanescape_path_settings* given) {
+PathSettings path_settings_of(const lanescape_path_settings* given) {
   PathSettings settings;
   if (given == nullptr) return settings;
   const auto& s = sized(given, "settings", "lanescape_path_settings");
@@ -32,7 +34,14 @@ PathSettings settings_of(const lanescape_path_settings* given) {
   return settings;
 }
 
-}  // namespace
+void copy_frame(const std::vector<std::vector<double>>& frames, std::size_t frame, double* positions) {
+  if (frame >= frames.size())
+    refuse("frame " + std::to_string(frame) + " is not allowed: the path has " + std::to_string(frames.size()) +
+           ", numbered from 0");
+  copy_out(frames[frame], &given(positions, "positions"));
+}
+
+}  // namespace lanescape::capi
 
 lanescape_status lanescape_path_settings_init(lanescape_path_settings* settings, size_t size) {
   return guarded([&] {
@@ -52,7 +61,7 @@ lanescape_status lanescape_find_path(const lanescape_model* model, size_t partic
   return guarded([&] {
     create(path, "path", [&] {
       return find_path(object_of(model, "model").model, array(species, particles, "species"), three(box, "box"),
-                       vectors(start, particles, "start"), vectors(finish, particles, "finish"), settings_of(settings),
+                       vectors(start, particles, "start"), vectors(finish, particles, "finish"), path_settings_of(settings),
                        optional_array(diameters, particles, "diameters"));
     });
   });
@@ -64,7 +73,7 @@ lanescape_status lanescape_find_path_on(const lanescape_landscape* landscape, co
     create(path, "path", [&] {
       CallbackLandscape host(landscape);
       const std::size_t n = host.particles();
-      return find_path(host, vectors(start, n, "start"), vectors(finish, n, "finish"), settings_of(settings),
+      return find_path(host, vectors(start, n, "start"), vectors(finish, n, "finish"), path_settings_of(settings),
                        optional_array(masses, n, "masses"));
     });
   });
@@ -94,13 +103,7 @@ lanescape_status lanescape_path_summarise(const lanescape_path* path, lanescape_
 }
 
 lanescape_status lanescape_path_frame(const lanescape_path* path, size_t frame, double* positions) {
-  return guarded([&] {
-    const auto& frames = object_of(path, "path").frames;
-    if (frame >= frames.size())
-      refuse("frame " + std::to_string(frame) + " is not allowed: the path has " + std::to_string(frames.size()) +
-             ", numbered from 0");
-    copy_out(frames[frame], &given(positions, "positions"));
-  });
+  return guarded([&] { copy_frame(object_of(path, "path").frames, frame, positions); });
 }
 
 lanescape_status lanescape_path_destroy(lanescape_path* path) { return destroy(path, "path"); }

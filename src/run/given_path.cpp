@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "configuration/model_traits.hpp"
 #include "core/error.hpp"
@@ -37,10 +38,9 @@ void check_system(const Configuration& node, const Configuration& end, const std
   if (!nearly_equal(node.diameters, end.diameters)) throw_bad_input(where + ": its diameters are not those of the pair");
 }
 
-void check_allowed(const std::vector<Configuration>& nodes, const AnyModel& model, const SearchSetup& setup,
-                   const std::string& where) {
+void check_allowed(const std::vector<Configuration>& nodes, const SearchSetup& setup, const std::string& where) {
   const double energy = setup.prepared.landscape_energy;
-  const auto landscape = is_hard(model) ? nullptr : path_landscape(setup);
+  const auto landscape = is_hard(setup.model) ? nullptr : path_landscape(setup);
   for (std::size_t k = 1; k + 1 < nodes.size(); ++k) {
     const std::string frame = fmt::format("{}, frame {}", where, k + 1);
     if (!landscape) {
@@ -72,15 +72,20 @@ void match_ends(std::vector<Configuration>& nodes, const AnyModel& model, const 
 
 std::vector<Configuration> fit_path(std::vector<Configuration> nodes, const AnyModel& model, const ConfigurationPair& pair,
                                     const std::string& where, const PathRunOptions& options, Isa isa) {
-  match_ends(nodes, model, pair, where);
+  const PreparedPair prepared = prepare_pair(model, pair, where, options, isa);
+  return fit_path(std::move(nodes), {model, pair, prepared, options, isa, options.threads, false, {}}, where);
+}
+
+std::vector<Configuration> fit_path(std::vector<Configuration> nodes, const SearchSetup& search, const std::string& where) {
+  const ConfigurationPair& pair = search.pair;
+  match_ends(nodes, search.model, pair, where);
   nodes.front() = pair.start;
   nodes.back() = pair.finish;
   for (Configuration& node : nodes) {
     node.radii = pair.start.radii;
     node.diameters = pair.start.diameters;
   }
-  const PreparedPair prepared = prepare_pair(model, pair, where, options, isa);
-  check_allowed(nodes, model, {model, pair, prepared, options, isa, options.threads, false, {}}, where);
+  check_allowed(nodes, search, where);
   return nodes;
 }
 

@@ -7,6 +7,7 @@
 #include "configuration/model.hpp"
 #include "dispatch/isa.hpp"
 #include "run/path_run.hpp"
+#include "run/path_search.hpp"
 
 namespace lanescape {
 
@@ -20,5 +21,7 @@ void match_ends(std::vector<Configuration>& nodes, const AnyModel& model, const 
 // energy by the escape method's tolerance, a hard one has no overlap.
 std::vector<Configuration> fit_path(std::vector<Configuration> nodes, const AnyModel& model, const ConfigurationPair& pair,
                                     const std::string& where, const PathRunOptions& options, Isa isa);
+// The same on the landscape of a search, whose pair it is.
+std::vector<Configuration> fit_path(std::vector<Configuration> nodes, const SearchSetup& search, const std::string& where);
 
 }  // namespace lanescape

@@ -32,11 +32,18 @@ void check_same_particles(const AnyModel& model, const std::vector<Configuration
   check_box_holds_spheres(first);
 }
 
+double distance_of_ends(const Polyline& nodes, Isa isa) {
+  return VectorAlgebra(kernel_table(isa)).distance(nodes.front(), nodes.back());
+}
+
 }  // namespace
 
 PathNodes path_nodes(const AnyModel& model, const std::vector<Configuration>& path) {
   const Mixture& mixture = mixture_of(model);
-  const ParticleLayout layout = ParticleLayout::in_space_order(path.front(), mixture.species.size());
+  return path_nodes(mixture, ParticleLayout::in_space_order(path.front(), mixture.species.size()), path);
+}
+
+PathNodes path_nodes(const Mixture& mixture, const ParticleLayout& layout, const std::vector<Configuration>& path) {
   PathNodes result{layout, KinematicMetric(mixture, layout), {}};
   for (const Configuration& node : path) {
     result.nodes.push_back(layout.to_slots(node.positions));
@@ -62,22 +69,26 @@ CheckedPath check_path(const AnyModel& model, const std::vector<Configuration>& 
   for (const Configuration& node : path) check_finite_particles(node.positions);
   const PathNodes made = path_nodes(model, path);
   const Configuration& first = path.front();
-  CheckedPath result;
-  result.distance = VectorAlgebra(kernel_table(isa)).distance(made.nodes.front(), made.nodes.back());
   if (is_hard(model)) {
     if (landscape_energy) throw_bad_input("hard spheres have no landscape energy: without it only");
+    CheckedPath result;
+    result.distance = distance_of_ends(made.nodes, isa);
     result.check = check_path(HardSpherePath{first.box, made.layout, first.radii, made.metric, isa}, made.nodes, options);
     return result;
   }
-  const auto make = [&]() -> std::unique_ptr<SoftLandscape> {
-    auto landscape = make_landscape(model, first.box, made.layout, isa, {.skin = path_skin});
-    if (made.metric.is_euclidean()) return landscape;
-    return std::make_unique<KinematicLandscape>(std::move(landscape), made.metric);
-  };
-  const auto end_energy = [&](const AlignedArray& end) { return make()->energy(end); };
+  const auto make = [&] { return make_landscape(model, first.box, made.layout, isa, {.skin = path_skin}); };
+  return check_path_on(make, made, landscape_energy, isa, options);
+}
+
+CheckedPath check_path_on(const SoftLandscapeMaker& make, const PathNodes& path, std::optional<double> landscape_energy, Isa isa,
+                          const PathCheckOptions& options) {
+  const auto make_kinematic = [&] { return in_kinematic_coordinates(make(), path.metric); };
+  const auto end_energy = [&](const AlignedArray& end) { return make_kinematic()->energy(end); };
+  CheckedPath result;
+  result.distance = distance_of_ends(path.nodes, isa);
   result.landscape_energy =
-      landscape_energy ? *landscape_energy : std::max(end_energy(made.nodes.front()), end_energy(made.nodes.back()));
-  result.check = check_path(make, result.landscape_energy, made.nodes, options);
+      landscape_energy ? *landscape_energy : std::max(end_energy(path.nodes.front()), end_energy(path.nodes.back()));
+  result.check = check_path(make_kinematic, result.landscape_energy, path.nodes, options);
   return result;
 }
 

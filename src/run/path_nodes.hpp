@@ -10,6 +10,7 @@
 #include "landscape/kinematic_landscape.hpp"
 #include "path/path_check.hpp"
 #include "path/polyline.hpp"
+#include "run/path_search.hpp"
 
 namespace lanescape {
 
@@ -22,6 +23,7 @@ struct PathNodes {
 
 // `path` has at least one configuration; all hold the same particles.
 PathNodes path_nodes(const AnyModel& model, const std::vector<Configuration>& path);
+PathNodes path_nodes(const Mixture& mixture, const ParticleLayout& layout, const std::vector<Configuration>& path);
 // The way back: in the user's order, with box, species and sizes of `like`.
 std::vector<Configuration> configurations_of(const Polyline& nodes, const ParticleLayout& layout, const KinematicMetric& metric,
                                              const Configuration& like);
@@ -39,5 +41,8 @@ struct CheckedPath {
 // a landscape energy of hard spheres.
 CheckedPath check_path(const AnyModel& model, const std::vector<Configuration>& path, std::optional<double> landscape_energy,
                        Isa isa, const PathCheckOptions& options = {});
+// The same on any landscape of soft particles, in positions; what is checked of configurations is not.
+CheckedPath check_path_on(const SoftLandscapeMaker& make, const PathNodes& path, std::optional<double> landscape_energy, Isa isa,
+                          const PathCheckOptions& options = {});
 
 }  // namespace lanescape

@@ -40,12 +40,12 @@ std::unique_ptr<SoftLandscape> model_landscape(const AnyModel& model, const Box&
   return make_landscape(model, box, layout, isa, {.threads = threads, .skin = path_skin, .precision = precision});
 }
 
+}  // namespace
+
 std::unique_ptr<SoftLandscape> in_kinematic_coordinates(std::unique_ptr<SoftLandscape> landscape, const KinematicMetric& metric) {
   if (metric.is_euclidean()) return landscape;
   return std::make_unique<KinematicLandscape>(std::move(landscape), metric);
 }
-
-}  // namespace
 
 void PathRunOptions::check(const AnyModel& model) const {
   const double unit = length_unit(model);

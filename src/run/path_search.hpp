@@ -53,6 +53,8 @@ struct SearchSetup {
   FinderOptions finder_options() const;
 };
 
+// A landscape in positions, in the coordinates of a metric.
+std::unique_ptr<SoftLandscape> in_kinematic_coordinates(std::unique_ptr<SoftLandscape> landscape, const KinematicMetric& metric);
 // The landscape of soft particles on which a path runs, in kinematic coordinates.
 std::unique_ptr<SoftLandscape> path_landscape(const SearchSetup& setup);
 

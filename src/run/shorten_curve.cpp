@@ -70,11 +70,12 @@ class CurveShorteningWork final : public ShortenWork {
 
   ShortenedPath result() override {
     if (!curve_ || !failure_.empty()) return unchanged();
-    const PathCheck check = certificate();
+    PathCheck check = certificate();
     ShortenedPath shortened;
     shortened.path = measured_path();
     shortened.path.largest_violation = check.largest_violation;
     shortened.kuhn_tucker_residual = check.kuhn_tucker_residual;
+    shortened.multipliers = std::move(check.multipliers);
     shortened.curve = CurveReport{curve_->length_change(), curve_->levels(), curve_->iterations()};
     judge(shortened);
     return shortened;

@@ -33,6 +33,7 @@ struct ShortenedPath {
   std::optional<double> kuhn_tucker_residual;  // PHYSICS 4; none where the nodes alone are no path
   std::vector<ShortenTrial> trials;            // of methods that make trials
   std::optional<CurveReport> curve;            // of curve shortening
+  std::vector<double> multipliers{};           // of each node, where there is a residual
 };
 
 // What shortening starts from. All of it must outlive the work.

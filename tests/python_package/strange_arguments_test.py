@@ -109,6 +109,16 @@ class StrangeArgumentsTest(unittest.TestCase):
         self.calls(path, [potential, positions, positions + 0.01],
                    ["masses", "method", "adaptive", "step", "avoidance_step", "fictitious", "landscape_energy", "reverse", "patience", "frames", "threads",
                     "precision", "instruction_set", "progress", "species", "box"])
+
+        def short_path(landscape, start, finish, path=None, **options):
+            lanescape.shorten_path(landscape, start, finish, path, **{"max_steps": 20, **options})
+
+        line = np.array([positions, positions + 0.01, positions + 0.02])
+        self.calls(short_path, [potential, positions, positions + 0.01],
+                   ["masses", "method", "starts", "seed", "path_method", "adaptive", "step", "landscape_energy", "patience", "threads", "precision",
+                    "instruction_set", "progress", "species", "box", "path"])
+        self.calls(lanescape.check_path, [potential, line], ["masses", "landscape_energy", "threads", "instruction_set", "species", "box"])
+        self.calls(lambda species, box: lanescape.check_path(model, line, species=species, box=box), [species, box])
         self.calls(lanescape.MolecularDynamics, [potential, positions, 0.001], ["masses"])
         dynamics = lanescape.MolecularDynamics(potential, positions, 0.001)
         self.calls(dynamics.draw_velocities, [1.0, 1])

@@ -21,14 +21,16 @@ from lanescape._core import (
     make_start,
     model_names,
     pair_potentials,
+    shorten_methods,
 )
 from lanescape.errors import Error, InputError, RunError
-from lanescape.functions import evaluate, find_path, insert, overlap
+from lanescape.functions import check_path, evaluate, find_path, insert, overlap, shorten_path
 from lanescape.neighbours import neighbour_list
-from lanescape.results import EndPoints, Evaluation, InsertedParticle, Overlaps, Path, SitePairs, Start
+from lanescape.results import EndPoints, Evaluation, InsertedParticle, Overlaps, Path, PathCertificate, ShortPath, SitePairs, Start
 
 __all__ = [
     "EndPoints", "Error", "Evaluation", "EventDrivenDynamics", "HardSpheres", "InputError", "InsertedParticle", "Inserter", "Model",
-    "MolecularDynamics", "NeighbourList", "Overlaps", "ParticleMoves", "Path", "Potential", "RunError", "SitePairs", "Start", "StateSystem", "__version__",
-    "evaluate", "find_path", "insert", "instruction_sets", "make_end_points", "make_start", "model_names", "neighbour_list", "overlap", "pair_potentials",
+    "MolecularDynamics", "NeighbourList", "Overlaps", "ParticleMoves", "Path", "PathCertificate", "Potential", "RunError", "ShortPath", "SitePairs", "Start", "StateSystem", "__version__",
+    "check_path", "evaluate", "find_path", "insert", "instruction_sets", "make_end_points", "make_start", "model_names", "neighbour_list", "overlap",
+    "pair_potentials", "shorten_methods", "shorten_path",
 ]

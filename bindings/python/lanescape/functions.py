@@ -7,9 +7,9 @@ import numpy
 from numpy.typing import ArrayLike
 
 from lanescape import _core
-from lanescape.results import Evaluation, InsertedParticle, Overlaps, Path
+from lanescape.results import Evaluation, InsertedParticle, Overlaps, Path, PathCertificate, ShortPath
 
-__all__ = ["evaluate", "find_path", "insert", "overlap"]
+__all__ = ["check_path", "evaluate", "find_path", "insert", "overlap", "shorten_path"]
 
 
 def evaluate(model: _core.Model, positions: ArrayLike, box: ArrayLike, species: "ArrayLike | None" = None, *, forces: bool = True,
@@ -90,17 +90,79 @@ def find_path(landscape: Any, start: ArrayLike, finish: ArrayLike, *, species: "
     options = {"method": method, "adaptive": adaptive, "step": step, "avoidance_step": avoidance_step, "fictitious": fictitious, "landscape_energy": landscape_energy,
                "reverse": reverse, "max_steps": max_steps, "patience": patience, "frames": frames, "threads": threads, "precision": precision,
                "instruction_set": instruction_set, "progress": progress}
-    for name in ("method", "step", "avoidance_step", "landscape_energy", "progress"):
-        if options[name] is None:
-            del options[name]
+    options = _given(options)
+    if _is_model(landscape, species, box, diameters, masses, threads, precision, instruction_set):
+        return _core.path_of_model(landscape, start, finish, species, box, diameters, options)
+    return _core.path_on_landscape(landscape, start, finish, masses, options)
+
+
+def shorten_path(landscape: Any, start: ArrayLike, finish: ArrayLike, path: "ArrayLike | None" = None, *, species: "ArrayLike | None" = None,
+                 box: "ArrayLike | None" = None, diameters: "ArrayLike | None" = None, masses: "ArrayLike | None" = None, method: "str | None" = None,
+                 starts: int = 1, seed: int = 1, path_method: "str | None" = None, adaptive: bool = False, step: "float | None" = None,
+                 avoidance_step: "float | None" = None, fictitious: str = "harmonic", landscape_energy: "float | None" = None,
+                 max_steps: int = 1_000_000_000, patience: int = 1000, threads: int = 1, precision: str = "double", instruction_set: str = "auto",
+                 progress: "Callable[[float], bool | None] | None" = None) -> ShortPath:
+    """A path from start to finish in the allowed region, as short as the method makes it: a ShortPath.
+
+    landscape, start, finish, species, box, diameters, masses: as for find_path.
+    path: the path to shorten, (F, N, 3), at least three frames that begin and end at the two ends, in either order, and are allowed, such as
+    the frames of a Path; None: the one that the path method finds.
+
+    method: a word of shorten_methods(); None: the first.
+    starts, seed: independent runs with other random numbers, of which the shortest path is kept.
+    path_method, adaptive, step, avoidance_step, fictitious, landscape_energy, max_steps, patience: how the path to start from and those in
+    between are found; find_path has them, and their units.
+    threads, precision, instruction_set: as for Potential, of a Model only; several starts run at once. On a landscape there is one thread.
+    progress: called now and then with the number of iterations or trials made so far, 0 while the path to start from is found; False ends
+    the work.
+
+    Raises InputError for what find_path refuses, and for a path with fewer frames, of another shape, with other ends or outside the allowed
+    region. Exceptions of a landscape pass through.
+    """
+    options = _given({"method": method, "starts": starts, "seed": seed, "path_method": path_method, "adaptive": adaptive, "step": step,
+                      "avoidance_step": avoidance_step, "fictitious": fictitious, "landscape_energy": landscape_energy, "max_steps": max_steps,
+                      "patience": patience, "threads": threads, "precision": precision, "instruction_set": instruction_set, "progress": progress})
+    if _is_model(landscape, species, box, diameters, masses, threads, precision, instruction_set):
+        return _core.short_path_of_model(landscape, start, finish, path, species, box, diameters, options)
+    return _core.short_path_on_landscape(landscape, start, finish, path, masses, options)
+
+
+def check_path(landscape: Any, path: ArrayLike, *, species: "ArrayLike | None" = None, box: "ArrayLike | None" = None,
+               diameters: "ArrayLike | None" = None, masses: "ArrayLike | None" = None, landscape_energy: "float | None" = None, threads: int = 1,
+               instruction_set: str = "auto") -> PathCertificate:
+    """How far a path of straight segments leaves the allowed region, and how far it is from a shortest one: a PathCertificate.
+
+    landscape, species, box, diameters, masses: as for find_path. path: (F, N, 3), at least three frames, unwrapped.
+    landscape_energy: E_L, in units of energy, not for hard spheres; None: the higher of the two ends.
+    threads, instruction_set: as for Potential, of a Model only.
+
+    Raises InputError for fewer frames, another shape, coordinates or energies that are not finite, and neighbouring frames that coincide.
+    Exceptions of a landscape pass through.
+    """
+    options = _given({"landscape_energy": landscape_energy, "threads": threads, "instruction_set": instruction_set})
+    if _is_model(landscape, species, box, diameters, masses, threads, "double", instruction_set):
+        return _core.certificate_of_model(landscape, path, species, box, diameters, options)
+    return _core.certificate_on_landscape(landscape, path, masses, options)
+
+
+def _given(options: dict[str, Any]) -> dict[str, Any]:
+    """Without those that are None, which stand for the library's own."""
+    return {name: value for name, value in options.items() if value is not None or name not in _MAY_BE_NONE}
+
+
+_MAY_BE_NONE = {"method", "path_method", "step", "avoidance_step", "landscape_energy", "progress"}
+
+
+def _is_model(landscape: Any, species: Any, box: Any, diameters: Any, masses: Any, threads: int, precision: str, instruction_set: str) -> bool:
+    """Whether paths are those of a model. TypeError for arguments that do not belong to it, or to a landscape."""
     if isinstance(landscape, _core.Model):
         if masses is not None:
             raise TypeError("masses: those of a model hold; None is needed")
         if box is None:
             raise TypeError("box: the edges are needed with a model")
-        return _core.path_of_model(landscape, start, finish, species, box, diameters, options)
+        return True
     if species is not None or box is not None or diameters is not None:
         raise TypeError("species, box and diameters belong to a model: a landscape has its own")
     if (threads, precision, instruction_set) != (1, "double", "auto"):
         raise TypeError("threads, precision and instruction_set belong to a model: a landscape has its own")
-    return _core.path_on_landscape(landscape, start, finish, masses, options)
+    return False

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy
 
-__all__ = ["EndPoints", "Evaluation", "InsertedParticle", "Overlaps", "Path", "SitePairs", "Start"]
+__all__ = ["EndPoints", "Evaluation", "InsertedParticle", "Overlaps", "Path", "PathCertificate", "ShortPath", "SitePairs", "Start"]
 
 
 class Evaluation(NamedTuple):
@@ -89,3 +89,45 @@ class Path:
     @property
     def reached(self) -> bool:
         return self.outcome == "reached"
+
+
+@dataclass(frozen=True, eq=False)
+class ShortPath:
+    """A path in the allowed region, as short as a method made it."""
+
+    outcome: str  # reached where the method ended by its own rule; else step_limit, stalled, interrupted
+    reason: str  # why it is not reached
+    length_before: float  # in 3N space, of mass-weighted coordinates where masses differ
+    length: float  # of the shortest path, 0 where there was none to start from
+    distance: float  # of its ends
+    ratio_squared: float  # (distance / length)^2, 0 without a path
+    landscape_energy: float  # E_L of soft models
+    largest_violation: float  # largest V - E_L along it, or deepest overlap; at least 0
+    kuhn_tucker_residual: "float | None"  # as in PathCertificate; None where the frames are only some points of the path
+    multipliers: "numpy.ndarray | None"  # likewise, of each frame, (F,)
+    start_lengths: numpy.ndarray  # of the path that each start found
+    evaluations: int  # that found the path, not those of trials that failed
+    seconds: float
+    frames: numpy.ndarray  # (F, N, 3), from start to finish
+
+    @property
+    def reached(self) -> bool:
+        return self.outcome == "reached"
+
+
+@dataclass(frozen=True, eq=False)
+class PathCertificate:
+    """How far a path leaves the allowed region, and how far it is from the Kuhn-Tucker condition of a shortest one.
+
+    A small residual shows that it is stationary, not that no other is shorter.
+    """
+
+    length: float  # in 3N space, of mass-weighted coordinates where masses differ
+    distance: float  # of its ends, likewise
+    ratio_squared: float  # (distance / length)^2
+    landscape_energy: float  # E_L of soft models
+    largest_violation: float  # of V - E_L, or of overlaps, over frames and segments; at least 0
+    kuhn_tucker_residual: float  # max |tau - lambda n| / max |tau| over the bends tau of the path; 0 for a straight one
+    multipliers: numpy.ndarray  # lambda >= 0 of each frame, (F,); of hard spheres the sum over contacts
+    excess: numpy.ndarray  # of each frame, (F,): V - E_L; of hard spheres the smallest gap
+    segment_violation: numpy.ndarray  # of each segment, (F - 1,): the largest V - E_L; of hard spheres minus the smallest gap

@@ -72,6 +72,25 @@ Numbers Numbers::list(nb::handle given, const char* what) {
   return numbers;
 }
 
+Numbers Numbers::frames(nb::handle given, const char* what) {
+  Numbers numbers;
+  if (given.is_none()) return numbers;
+  numbers.array_ = numbers_of(given, what);
+  if (numbers.array_.ndim() != 3 || numbers.array_.shape(2) != 3)
+    refuse(std::string(what) + ": shape " + shape_text(numbers.array_) + " is not allowed: (F, N, 3) is needed");
+  return numbers;
+}
+
+std::vector<std::vector<double>> Numbers::parts() const {
+  std::vector<std::vector<double>> parts;
+  const std::size_t length = rows() == 0 ? 0 : array_.size() / rows();
+  for (std::size_t k = 0; k < rows(); ++k) {
+    const auto part = values().subspan(k * length, length);
+    parts.emplace_back(part.begin(), part.end());
+  }
+  return parts;
+}
+
 Room Room::vectors(nb::handle given, std::size_t rows, const char* what) { return {given, {rows, 3}, what}; }
 Room Room::list(nb::handle given, std::size_t rows, const char* what) { return {given, {rows}, what}; }
 

@@ -47,6 +47,12 @@ class EndPointsObject : public nb::object {
 class PathObject : public nb::object {
   NB_OBJECT_DEFAULT(PathObject, nb::object, "lanescape.results.Path", of_any_class)
 };
+class ShortPathObject : public nb::object {
+  NB_OBJECT_DEFAULT(ShortPathObject, nb::object, "lanescape.results.ShortPath", of_any_class)
+};
+class PathCertificateObject : public nb::object {
+  NB_OBJECT_DEFAULT(PathCertificateObject, nb::object, "lanescape.results.PathCertificate", of_any_class)
+};
 class InsertedParticleObject : public nb::object {
   NB_OBJECT_DEFAULT(InsertedParticleObject, nb::object, "lanescape.results.InsertedParticle", of_any_class)
 };
@@ -57,9 +63,12 @@ class Numbers {
  public:
   static Numbers vectors(nb::handle given, const char* what);  // (N, 3)
   static Numbers list(nb::handle given, const char* what);     // (N,); None: empty
+  static Numbers frames(nb::handle given, const char* what);   // (F, N, 3); None: empty
 
   std::span<const double> values() const { return {array_.data(), array_.size()}; }
   std::size_t rows() const { return array_.ndim() == 0 ? 0 : array_.shape(0); }
+  // Along its first axis.
+  std::vector<std::vector<double>> parts() const;
   std::vector<double> copy() const { return {values().begin(), values().end()}; }
 
  private:

@@ -21,6 +21,8 @@ NB_MODULE(_core, module) {
   bind_event_driven(module);
   bind_end_points(module);
   bind_paths(module);
+  bind_shortening(module);
   bind_neighbours(module);
+  module.def("shorten_methods", &lanescape::shorten_method_names, "Words for the method of shorten_path, the default first.");
   module.def("instruction_sets", &lanescape::instruction_sets, "Instruction sets that this processor has, best last.");
 }

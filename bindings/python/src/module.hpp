@@ -16,6 +16,7 @@ void bind_dynamics(nanobind::module_& module);
 void bind_event_driven(nanobind::module_& module);
 void bind_end_points(nanobind::module_& module);
 void bind_paths(nanobind::module_& module);
+void bind_shortening(nanobind::module_& module);
 void bind_neighbours(nanobind::module_& module);
 
 }  // namespace lanescape::python

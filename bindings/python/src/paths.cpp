@@ -1,25 +1,39 @@
-#include <nanobind/nanobind.h>
-#include <nanobind/stl/optional.h>
-#include <nanobind/stl/string.h>
-
 #include <lanescape/path.hpp>
 
-#include <optional>
-#include <string>
-
-#include "arguments.hpp"
 #include "module.hpp"
+#include "options.hpp"
 #include "python_landscape.hpp"
 
 namespace lanescape::python {
-namespace {
 
-Array frames_of(const Path& path) {
-  std::vector<double> numbers;
-  for (const auto& frame : path.frames) numbers.insert(numbers.end(), frame.begin(), frame.end());
-  const std::size_t frames = path.frames.size();
-  return new_array(std::span<const double>(numbers), {frames, frames == 0 ? 0 : numbers.size() / frames / 3, 3});
+PathSettings path_settings_of(const Options& options, const char* method) {
+  PathSettings settings;
+  options.take(method, settings.method);
+  options.take("adaptive", settings.adaptive);
+  options.take("step", settings.step);
+  options.take("avoidance_step", settings.avoidance_step);
+  options.take("fictitious", settings.fictitious);
+  options.take("landscape_energy", settings.landscape_energy);
+  options.take("reverse", settings.reverse);
+  options.take("max_steps", settings.max_steps);
+  options.take("patience", settings.patience);
+  options.take("frames", settings.frames);
+  options.take("threads", settings.threads);
+  threads_of(settings.threads);
+  options.take("precision", settings.precision);
+  options.take("instruction_set", settings.instruction_set);
+  settings.progress = progress_of(options.at("progress"));
+  return settings;
 }
+
+Array frames_of(const std::vector<std::vector<double>>& frames) {
+  std::vector<double> numbers;
+  for (const auto& frame : frames) numbers.insert(numbers.end(), frame.begin(), frame.end());
+  const std::size_t count = frames.size();
+  return new_array(std::span<const double>(numbers), {count, count == 0 ? 0 : numbers.size() / count / 3, 3});
+}
+
+namespace {
 
 PathObject to_python(const Path& path) {
   nb::dict members;
@@ -36,32 +50,8 @@ PathObject to_python(const Path& path) {
   members["largest_violation"] = path.largest_violation;
   members["reversed"] = path.reversed;
   members["seconds"] = path.seconds;
-  members["frames"] = frames_of(path);
+  members["frames"] = frames_of(path.frames);
   return new_result<PathObject>(members);
-}
-
-PathSettings settings_of(const nb::dict& given) {
-  PathSettings settings;
-  const auto take = [&](const char* name, auto& member) {
-    if (given.contains(name) && !nb::try_cast(nb::object(given[name]), member))
-      throw nb::type_error((std::string("find_path: ") + name + " cannot be " + text(nb::repr(nb::object(given[name])))).c_str());
-  };
-  take("method", settings.method);
-  take("adaptive", settings.adaptive);
-  take("step", settings.step);
-  take("avoidance_step", settings.avoidance_step);
-  take("fictitious", settings.fictitious);
-  take("landscape_energy", settings.landscape_energy);
-  take("reverse", settings.reverse);
-  take("max_steps", settings.max_steps);
-  take("patience", settings.patience);
-  take("frames", settings.frames);
-  take("threads", settings.threads);
-  threads_of(settings.threads);
-  take("precision", settings.precision);
-  take("instruction_set", settings.instruction_set);
-  settings.progress = progress_of(given.contains("progress") ? nb::object(given["progress"]) : nb::none());
-  return settings;
 }
 
 PathObject on_model(const Model& model, ArrayLike start, ArrayLike finish, ArrayLike species, ArrayLike box, ArrayLike diameters,
@@ -70,7 +60,7 @@ PathObject on_model(const Model& model, ArrayLike start, ArrayLike finish, Array
   const std::vector<int> indices = species_of(model, species, from.rows());
   const Numbers sizes = Numbers::list(diameters, "diameters");
   const auto edges = box_of(box);
-  const PathSettings settings = settings_of(options);
+  const PathSettings settings = path_settings_of({options, "find_path"}, "method");
   Path path;
   {
     const nb::gil_scoped_release others_may_run;
@@ -83,7 +73,7 @@ PathObject on_landscape(nb::handle landscape, ArrayLike start, ArrayLike finish,
   const Numbers from = Numbers::vectors(start, "start"), to = Numbers::vectors(finish, "finish");
   const Numbers weights = Numbers::list(masses, "masses");
   const HeldLandscape held(landscape, from.rows());
-  const PathSettings settings = settings_of(options);
+  const PathSettings settings = path_settings_of({options, "find_path"}, "method");
   Lock search;
   return to_python(
       unlocked(search, held, [&] { return find_path(*held.landscape, from.values(), to.values(), settings, weights.values()); }));

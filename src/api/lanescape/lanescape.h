@@ -43,6 +43,7 @@ typedef struct lanescape_neighbours lanescape_neighbours;
 typedef struct lanescape_hard_spheres lanescape_hard_spheres;
 typedef struct lanescape_inserter lanescape_inserter;
 typedef struct lanescape_path lanescape_path;
+typedef struct lanescape_short_path lanescape_short_path;
 typedef struct lanescape_end_points lanescape_end_points;
 typedef struct lanescape_dynamics lanescape_dynamics;
 typedef struct lanescape_event_driven lanescape_event_driven;
@@ -331,10 +332,10 @@ typedef struct lanescape_landscape {
 // Paths that never leave the allowed region: V(R) <= E_L, or no overlaps.
 typedef struct lanescape_path_settings {
   size_t size;
-  const char* method;              // contour or escape (soft), avoidance or away (hard spheres); NULL: the first of the family
-  double step;                     // not adaptive: length of a direct step in 3N space; 0: the method's own, in the model's unit of length
-  double avoidance_step;           // of each sphere that an avoidance step moves; 0: 1e-4 of that unit
-  const char* fictitious;          // force between overlapping spheres in an avoidance step: harmonic, linear, cubic
+  const char* method;      // contour or escape (soft), avoidance or away (hard spheres); NULL: the first of the family
+  double step;             // not adaptive: length of a direct step in 3N space; 0: the method's own, in the model's unit of length
+  double avoidance_step;   // of each sphere that an avoidance step moves; 0: 1e-4 of that unit
+  const char* fictitious;  // force between overlapping spheres in an avoidance step: harmonic, linear, cubic
   const double* landscape_energy;  // E_L; NULL: the higher of the two ends
   int reverse;                     // search from the far end too and keep the shorter path, 0
   uint64_t max_steps;              // 1,000,000,000
@@ -386,4 +387,5 @@ lanescape_status lanescape_path_destroy(lanescape_path* path);
 #endif
 
 #include <lanescape/dynamics.h>
+#include <lanescape/shortening.h>
 #include <lanescape/states.h>

@@ -17,6 +17,7 @@
 #include <lanescape/neighbours.hpp>
 #include <lanescape/path.hpp>
 #include <lanescape/potential.hpp>
+#include <lanescape/shortening.hpp>
 #include <lanescape/states.hpp>
 
 namespace lanescape {
