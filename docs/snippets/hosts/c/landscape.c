@@ -28,5 +28,18 @@ int main(void) {
   }
   printf("%s, length %.3f\n", summary.outcome, summary.length);
   lanescape_path_destroy(path);
+
+  lanescape_shorten_settings shortening;
+  lanescape_shorten_settings_init(&shortening, sizeof shortening);
+  shortening.search = &settings;
+  lanescape_short_path* shortest;
+  lanescape_short_path_summary shortened = {.size = sizeof shortened};
+  if (lanescape_shorten_path_on(&landscape, start, finish, NULL, 0, NULL, &shortening, &shortest) != LANESCAPE_OK ||
+      lanescape_short_path_summarise(shortest, &shortened) != LANESCAPE_OK) {
+    fprintf(stderr, "%s\n", lanescape_last_error());
+    return 1;
+  }
+  printf("shortened to %.3f, Kuhn-Tucker residual %.1e\n", shortened.length, shortened.kuhn_tucker_residual);
+  lanescape_short_path_destroy(shortest);
   return 0;
 }

@@ -19,5 +19,10 @@ int main() {
   const std::vector<double> start = {-2.0, 0.1, 0.0}, finish = {2.0, 0.1, 0.0};
   const lanescape::Path path = lanescape::find_path(hill, start, finish, {.landscape_energy = 1.0});
   std::printf("%s, length %.3f\n", path.outcome.c_str(), path.length);
-  return path.reached() ? 0 : 1;
+
+  const lanescape::ShortPath shortest = lanescape::shorten_path(hill, start, finish, {.search = {.landscape_energy = 1.0}});
+  const lanescape::PathCertificate found = lanescape::check_path(hill, shortest.frames, {.landscape_energy = 1.0});
+  std::printf("shortened to %.3f, Kuhn-Tucker residual %.1e, V - E_L at most %.1e\n", found.length, found.kuhn_tucker_residual,
+              found.largest_violation);
+  return path.reached() && shortest.reached() ? 0 : 1;
 }

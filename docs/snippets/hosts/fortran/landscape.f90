@@ -22,6 +22,8 @@ program path_around_a_hill
   implicit none
   type(lanescape_path) :: path
   type(lanescape_path_settings) :: settings
+  type(lanescape_short_path) :: shortest
+  type(lanescape_shorten_settings) :: shortening
   real(dp) :: start(3, 1), finish(3, 1)
 
   start(:, 1) = [-2.0_dp, 0.1_dp, 0.0_dp]
@@ -29,4 +31,8 @@ program path_around_a_hill
   settings%landscape_energy = 1.0_dp
   call path%find_on(hill, start, finish, settings)
   print '(2a, f0.3)', path%outcome, ", length ", path%length
+
+  shortening%search = settings
+  call shortest%shorten_on(hill, start, finish, settings=shortening)
+  print '(a, f0.3, a, es7.1)', "shortened to ", shortest%length, ", Kuhn-Tucker residual ", shortest%kuhn_tucker_residual
 end program path_around_a_hill
