@@ -14,6 +14,8 @@ class StringLaplacian {
  public:
   // Of L + shift, shift >= 0.
   void prepare(std::size_t nodes, double shift);
+  // The same with a tension for each segment, by which its square counts.
+  void prepare(const std::vector<double>& tensions, double shift);
 
   double diagonal() const { return diagonal_; }
   // Overwrites the inner nodes of `field` by the solution of (L + shift) x = field. Both ends stay 0. O(nodes x coordinates).
@@ -21,7 +23,8 @@ class StringLaplacian {
 
  private:
   double diagonal_ = 2.0;
-  std::vector<double> pivot_;  // one over the pivots of the elimination, by node
+  std::vector<double> tensions_;  // by segment
+  std::vector<double> pivot_;     // one over the pivots of the elimination, by node
 };
 
 // R_{k-1} - 2 R_k + R_{k+1} of each inner node, the pull of the string: of a geodesic it is normal to the boundary.
