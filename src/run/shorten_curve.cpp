@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "path/path_check.hpp"
 #include "path/shortening/curve_shortening.hpp"
+#include "path/shortening/hard_curve.hpp"
 #include "path/shortening/soft_curve.hpp"
 #include "run/neighbour_configuration.hpp"
 #include "run/path_nodes.hpp"
@@ -24,7 +25,8 @@ constexpr std::size_t frames_of_first_path = 1000;
 // A path with a larger residual is not called stationary.
 constexpr double stationary_residual = 1e-2;
 // Spacing of nodes at first, for 108 particles of unit diameter: normals of the boundary turn over lengths that grow with sqrt(N).
-constexpr double coarse_spacing = 0.5, spacing_particles = 108.0;
+// Hard spheres bend only where they touch.
+constexpr double coarse_spacing = 0.5, hard_coarse_spacing = 2.0, spacing_particles = 108.0;
 constexpr std::uint64_t iterations_per_checkpoint = 25;
 
 class CurveShorteningWork final : public ShortenWork {
@@ -127,17 +129,21 @@ class CurveShorteningWork final : public ShortenWork {
   std::unique_ptr<CurveShortening> make_curve() const {
     const double unit = length_unit(setup_.model);
     const double particles = static_cast<double>(setup_.prepared.layout.size());
-    return std::make_unique<CurveShortening>(
-        algebra_, make_relaxation(unit),
-        CurveOptions{.coarse_spacing = coarse_spacing * unit * std::sqrt(particles / spacing_particles)});
+    return std::make_unique<CurveShortening>(algebra_, make_relaxation(unit),
+                                             CurveOptions{.coarse_spacing = (is_hard() ? hard_coarse_spacing : coarse_spacing) *
+                                                                            unit * std::sqrt(particles / spacing_particles)});
   }
 
   std::unique_ptr<CurveRelaxation> make_relaxation(double unit) const {
-    if (setup_.options.method->is_hard) throw_bad_input("method curve is not for hard spheres yet: montecarlo is");
+    if (is_hard()) return std::make_unique<HardCurve>(hard_path(), HardCurveOptions{.length_unit = unit, .threads = threads()});
     return std::make_unique<SoftCurve>(landscape_factory(), setup_.prepared.landscape_energy,
                                        SoftCurveOptions{.length_unit = unit, .threads = threads()});
   }
 
+  bool is_hard() const { return setup_.options.method->is_hard; }
+  HardSpherePath hard_path() const {
+    return {setup_.pair.start.box, setup_.prepared.layout, setup_.pair.start.radii, setup_.prepared.metric, setup_.isa};
+  }
   // A host's own landscape is one object: it is asked from one thread.
   int threads() const { return setup_.landscape ? 1 : setup_.threads; }
   SoftLandscapeFactory landscape_factory() const {
@@ -157,6 +163,7 @@ class CurveShorteningWork final : public ShortenWork {
 
   PathCheck certificate() const {
     const PathCheckOptions options{.threads = threads()};
+    if (is_hard()) return check_path(hard_path(), curve_->nodes(), options);
     return check_path(landscape_factory(), setup_.prepared.landscape_energy, curve_->nodes(), options);
   }
 

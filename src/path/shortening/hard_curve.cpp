@@ -13,6 +13,9 @@ constexpr double reach = 0.3;            // of planes [unit of length]
 constexpr double relaxation = 1.5;       // of the way to the midpoint of the neighbours
 constexpr double stiffness = 0.02;       // of the preconditioner: about 1/length^2 of contacts, in nodes
 constexpr double largest_tension = 5.0;  // of short segments
+constexpr double sliding_limit = 0.2;    // of the residual before corridors are made, in which nodes move less easily
+// Of nodes that touch on both sides. Contacts that begin and end keep them from settling in dense systems.
+constexpr std::uint64_t most_tight_iterations = 1000;
 constexpr int most_corrections = 40;
 
 }  // namespace
@@ -27,6 +30,7 @@ void HardCurve::allocate(Polyline nodes) {
                                        HardNodes::Options{reach * options_.length_unit, options_.length_unit, options_.threads});
   now_ = std::move(nodes);
   moved_ = now_;
+  tight_iterations_ = 0;
   tensions_.assign(count - 1, 1.0);
   for (Polyline* field : {&rest_, &conditioned_, &direction_, &applied_, &step_})
     field->assign(count, AlignedArray(dimension, 0.0));
@@ -48,6 +52,7 @@ bool HardCurve::tighten() {
   nodes_->use(nodes_->planes() == HardNodes::Planes::of_nodes ? HardNodes::Planes::of_nodes_evenly
                                                               : HardNodes::Planes::of_segments);
   if (nodes_->planes() == HardNodes::Planes::of_segments) restore();
+  tight_iterations_ = 0;
   nodes_->follow(now_);
   moved_ = now_;
   return true;
@@ -180,7 +185,10 @@ Relaxation HardCurve::iterate() {
   now_ = moved_;
   nodes_->follow(now_);
   residual_ = measured_residual();
-  return residual_ < options_.residual ? Relaxation::stationary : Relaxation::continues;
+  const double limit = nodes_->planes() == HardNodes::Planes::of_segments ? 1.0 : sliding_limit;
+  if (residual_ < limit * options_.residual) return Relaxation::stationary;
+  const bool tight = nodes_->planes() != HardNodes::Planes::of_nodes;
+  return tight && ++tight_iterations_ >= most_tight_iterations ? Relaxation::stopped : Relaxation::continues;
 }
 
 void HardCurve::exchange(Archive& archive) {
@@ -189,6 +197,7 @@ void HardCurve::exchange(Archive& archive) {
   if (archive.reading()) allocate(Polyline(count, AlignedArray(layout_.dimension(), 0.0)));
   exchange_nodes(archive, "nodes", now_);
   archive.field("residual", residual_);
+  archive.field("tight_iterations", tight_iterations_);
   archive.field("earlier_evaluations", earlier_evaluations_);
   nodes_->exchange(archive);
   if (!archive.reading()) return;

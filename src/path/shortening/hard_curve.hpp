@@ -53,7 +53,7 @@ class HardCurve final : public CurveRelaxation {
   Isa isa_;
   HardCurveOptions options_;
   double residual_ = 1.0;
-  std::uint64_t earlier_evaluations_ = 0;
+  std::uint64_t earlier_evaluations_ = 0, tight_iterations_ = 0;
 
   std::unique_ptr<HardNodes> nodes_;
   StringLaplacian laplacian_;

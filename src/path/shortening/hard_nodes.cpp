@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/float_environment.hpp"
 
@@ -138,14 +139,11 @@ void HardNodes::add_node_planes(Corridor& corridor, const std::vector<Approach>&
   }
 }
 
-std::vector<HardNodes::Acting> HardNodes::forget_planes(Corridor& corridor) {
+std::vector<HardNodes::Acting> HardNodes::acting_planes(const Corridor& corridor) {
   std::vector<Acting> acting;
   for (std::size_t c = 0; c < corridor.keys.size(); ++c)
     if (corridor.multipliers[c] > 0.0) acting.emplace_back(corridor.keys[c], corridor.multipliers[c]);
   std::sort(acting.begin(), acting.end());
-  corridor.planes.clear();
-  corridor.keys.clear();
-  corridor.both.clear();
   return acting;
 }
 
@@ -169,7 +167,8 @@ void HardNodes::follow_block(const Polyline& nodes, Block& block, std::size_t be
     if (k + 2 == nodes.size()) turn_to_end(behind, block.to, block);
     ++block.evaluations;
     Corridor& corridor = corridors_[k];
-    const std::vector<Acting> acting = forget_planes(corridor);
+    const std::vector<Acting> acting = acting_planes(corridor);
+    corridor = {};
     if (mode_ == Planes::of_segments) {
       add_planes(corridor, block.before, block.from, block, 0);
       add_planes(corridor, behind, block.from, block, 1);
@@ -321,33 +320,35 @@ void HardNodes::keep_to_face(std::size_t k, AlignedArray& field) const {
 
 void HardNodes::exchange(Archive& archive) {
   exchange_enum(archive, "planes", mode_);
-  std::vector<std::uint64_t> counts, keys;
-  std::vector<double> multipliers;
-  for (Corridor& corridor : corridors_) {
-    std::uint64_t count = 0;
-    for (std::size_t c = 0; c < corridor.keys.size(); ++c)
-      if (corridor.multipliers[c] > 0.0) {
-        ++count;
-        keys.push_back(corridor.keys[c]);
-        multipliers.push_back(corridor.multipliers[c]);
-      }
-    counts.push_back(count);
-  }
-  archive.field("acting_counts", counts);
-  archive.field("acting_planes", keys);
-  archive.field("acting_multipliers", multipliers);
   std::uint64_t done = evaluations();
   archive.field("evaluations", done);
+  if (archive.reading()) scratch_.front()->evaluations = done;
+  std::vector<std::vector<Acting>> acting(corridors_.size());
+  if (!archive.reading())
+    for (std::size_t k = 0; k < corridors_.size(); ++k) acting[k] = acting_planes(corridors_[k]);
+  std::vector<std::uint64_t> counts;
+  for (const std::vector<Acting>& planes : acting) counts.push_back(planes.size());
+  archive.field("acting_counts", counts);
+  const std::uint64_t total = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+  std::vector<std::uint64_t> keys(total, 0);
+  std::vector<double> multipliers(total, 0.0);
+  std::size_t next = 0;
+  for (const std::vector<Acting>& planes : acting)
+    for (const auto& [number, multiplier] : planes) {
+      keys[next] = number;
+      multipliers[next++] = multiplier;
+    }
+  archive.field("acting_planes", keys);
+  archive.field("acting_multipliers", multipliers);
   if (!archive.reading()) return;
-  scratch_.front()->evaluations = done;
-  auto next_key = keys.begin();
-  auto next_multiplier = multipliers.begin();
+  auto key = keys.begin();
+  auto multiplier = multipliers.begin();
   for (std::size_t k = 0; k < corridors_.size(); ++k) {
     const auto count = static_cast<std::ptrdiff_t>(counts[k]);
-    corridors_[k].keys.assign(next_key, next_key + count);
-    corridors_[k].multipliers.assign(next_multiplier, next_multiplier + count);
-    next_key += count;
-    next_multiplier += count;
+    corridors_[k].keys.assign(key, key + count);
+    corridors_[k].multipliers.assign(multiplier, multiplier + count);
+    key += count;
+    multiplier += count;
   }
 }
 

@@ -92,7 +92,7 @@ class HardNodes {
                        const AlignedArray& at) const;
   bool acts(std::size_t k, std::uint64_t number) const;
   void share_gaps(std::size_t k);
-  static std::vector<Acting> forget_planes(Corridor& corridor);
+  static std::vector<Acting> acting_planes(const Corridor& corridor);
   static void keep_multipliers(Corridor& corridor, const std::vector<Acting>& acting);
   void turn_to_end(std::vector<Approach>& approaches, const AlignedArray& end, const Block& block) const;
   double most_share(const AlignedArray& displacement) const;

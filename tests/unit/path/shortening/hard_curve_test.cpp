@@ -1,0 +1,162 @@
+#include "path/shortening/hard_curve.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "configuration/pair_model.hpp"
+#include "core/byte_archive.hpp"
+#include "path/path_check.hpp"
+#include "path/shortening/curve_shortening.hpp"
+#include "two_sphere_path.hpp"
+
+namespace lanescape {
+namespace {
+
+using testing::TwoSpherePath;
+
+constexpr double degree = std::numbers::pi / 180.0;
+const Point centre{3.0, -2.0, 11.0};
+
+// Two spheres of two species, whose masses may differ, and how their paths are shortened.
+struct TwoHardSpheres {
+  double mass = 1.0;  // of the second
+  std::vector<double> radii = {0.5, 0.5};
+  std::vector<int> species = {0, 1};
+  int threads = 1;
+  CurveOptions options{.coarse_spacing = 0.05, .length_tolerance = 3e-5};
+
+  Box box{{20.0, 21.0, 22.0}};
+  ParticleLayout layout{species, 2};
+  KinematicMetric metric{model(), layout};
+  Isa isa = choose_isa("auto");
+  VectorAlgebra algebra{kernel_table(isa)};
+
+  PairModel model() const {
+    PairModel result = wca();
+    result.species.push_back({"Kr", mass, 1.0});
+    result.epsilon.assign(4, result.epsilon[0]);
+    result.sigma.assign(4, result.sigma[0]);
+    return result;
+  }
+  HardSpherePath path() const { return {box, layout, radii, metric, isa}; }
+  PathCheck check(const Polyline& nodes) const { return check_path(path(), nodes); }
+  std::unique_ptr<CurveShortening> begin() const {
+    return std::make_unique<CurveShortening>(algebra, std::make_unique<HardCurve>(path(), HardCurveOptions{.threads = threads}),
+                                             options);
+  }
+  // Nodes from the separation at a part of the length. The centre of mass is at rest.
+  template <class Relative>
+  Polyline nodes(std::size_t count, Relative relative) const {
+    Polyline result;
+    const double masses[] = {1.0, species[0] == species[1] ? 1.0 : mass};
+    for (std::size_t k = 0; k < count; ++k) {
+      const Point x = relative(static_cast<double>(k) / static_cast<double>(count - 1));
+      std::vector<double> positions(6);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        positions[axis] = centre[axis] - masses[1] / (masses[0] + masses[1]) * x[axis];
+        positions[3 + axis] = centre[axis] + masses[0] / (masses[0] + masses[1]) * x[axis];
+      }
+      result.push_back(layout.to_slots(positions));
+      metric.to_kinematic(result.back());
+    }
+    return result;
+  }
+};
+
+void finish(CurveShortening& curve) {
+  while (!curve.finished()) curve.advance();
+  EXPECT_EQ(curve.reason(), "");
+}
+
+PathCheck shortened(const TwoHardSpheres& spheres, const Polyline& start) {
+  const auto curve = spheres.begin();
+  curve->begin(start);
+  finish(*curve);
+  const PathCheck check = spheres.check(curve->nodes());
+  EXPECT_NEAR(check.length, curve->length(), 1e-12);
+  EXPECT_LE(check.largest_violation, 1e-9);
+  EXPECT_LE(check.kuhn_tucker_residual, 1e-2);
+  EXPECT_EQ(curve->nodes().front(), start.front());
+  EXPECT_EQ(curve->nodes().back(), start.back());
+  return check;
+}
+
+TEST(HardCurve, FindsTheGeodesicOfTwoSpheresFromTheGreedyPath) {
+  const TwoHardSpheres spheres;
+  for (const TwoSpherePath& example : {TwoSpherePath{3.0, 3.0, 170 * degree}, TwoSpherePath{3.0, 2.0, 150 * degree},
+                                       TwoSpherePath{1.5, 4.0, 179 * degree}, TwoSpherePath{2.0, 2.0, 125 * degree}}) {
+    const PathCheck check = shortened(spheres, spheres.nodes(301, [&](double t) { return example.greedy(t); }));
+    EXPECT_NEAR(check.length, example.length() / std::sqrt(2.0), 1e-4 * check.length);
+  }
+}
+
+// A detour far around the other sphere, out of the plane of the geodesic.
+Point detour(const TwoSpherePath& path, double t) {
+  const Point on = TwoSpherePath::polar(path.a + (path.b - path.a) * t, path.angle * t);
+  const double bulge = std::sin(std::numbers::pi * t);
+  return {(1.0 + bulge) * on[0], (1.0 + bulge) * on[1], 0.8 * bulge};
+}
+
+TEST(HardCurve, FindsTheGeodesicOfTwoSpheresFromAFarDetour) {
+  const TwoHardSpheres spheres;
+  const TwoSpherePath example{3.0, 3.0, 170 * degree};
+  const PathCheck check = shortened(spheres, spheres.nodes(200, [&](double t) { return detour(example, t); }));
+  EXPECT_NEAR(check.length, example.length() / std::sqrt(2.0), 1e-4 * check.length);
+}
+
+TEST(HardCurve, HoldsForUnequalDiametersAndMasses) {
+  const TwoHardSpheres spheres{.mass = 3.0, .radii = {0.3, 0.9}};
+  const TwoSpherePath example{2.0, 3.0, 160 * degree, 1.2};
+  const PathCheck check = shortened(spheres, spheres.nodes(200, [&](double t) { return detour(example, t); }));
+  EXPECT_NEAR(check.length, example.length() * std::sqrt(0.75 / 2.0), 1e-4 * check.length);
+}
+
+TEST(HardCurve, StraightensAPathWhereTheStraightLineIsAllowed) {
+  const TwoHardSpheres spheres;
+  const Polyline bent = spheres.nodes(50, [](double t) {
+    return Point{2.0 + t, 0.5 * std::sin(std::numbers::pi * t), 0.3 * std::sin(2.0 * std::numbers::pi * t)};
+  });
+  const PathCheck check = shortened(spheres, bent);
+  EXPECT_NEAR(check.length, spheres.algebra.distance(bent.front(), bent.back()), 1e-9);
+  EXPECT_EQ(check.kuhn_tucker_residual, 0.0);
+}
+
+TEST(HardCurve, FindsThePathOfTheSameLengthFromItsOtherEndAndWithParticlesSwapped) {
+  const TwoHardSpheres spheres, swapped{.species = {1, 0}};
+  const TwoSpherePath example{3.0, 2.0, 150 * degree};
+  const Polyline start = spheres.nodes(150, [&](double t) { return detour(example, t); });
+  const double length = shortened(spheres, start).length;
+  EXPECT_NEAR(shortened(spheres, reversed(start)).length, length, 1e-5 * length);
+  EXPECT_NEAR(shortened(swapped, swapped.nodes(150, [&](double t) { return detour(example, t); })).length, length, 1e-5 * length);
+}
+
+TEST(HardCurve, HasTheSameBitsOnOneThreadAndOnTwoAndAfterResuming) {
+  TwoHardSpheres spheres{.options = {.coarse_spacing = 0.2, .length_tolerance = 1e-2}};
+  const TwoSpherePath example{3.0, 2.0, 150 * degree};
+  const Polyline start = spheres.nodes(150, [&](double t) { return detour(example, t); });
+  const auto whole = spheres.begin();
+  whole->begin(start);
+  spheres.threads = 2;
+  for (const int iterations : {3, 15}) {
+    const auto part = spheres.begin(), rest = spheres.begin();
+    part->begin(start);
+    for (int k = 0; k < iterations; ++k) part->advance();
+    ByteWriter writer;
+    part->exchange(writer);
+    const std::string bytes = writer.bytes();
+    ByteReader reader(bytes);
+    rest->exchange(reader);
+    finish(*rest);
+    if (!whole->finished()) finish(*whole);
+    EXPECT_EQ(rest->nodes(), whole->nodes());
+    EXPECT_EQ(rest->iterations(), whole->iterations());
+  }
+}
+
+}  // namespace
+}  // namespace lanescape
