@@ -3,8 +3,8 @@
 import numpy as np
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from plot_style import (BLUE, GREEN, GREY, PURPLE, VERMILLION, Unusable, decade_ticks, draw_series, legend_above, letter, plt,
-                        read_table, running, save, system_parts)
+from plot_style import (BLUE, GREEN, GREY, PURPLE, VERMILLION, Unusable, decade_ticks, draw_series, legend_above, letter, particles_of,
+                        plt, read_table, running, save, system_parts)
 
 HISTOGRAM_FROM = 10  # paths
 
@@ -25,12 +25,7 @@ def read_path(folder, number, summary):
     for key in ("length", "distance") + (() if hard else ("landscape_energy",)):
         if not isinstance(summary.get(key), (int, float)):
             raise Unusable(f"{folder / 'result.json'}: {key} of path {number} is not a number")
-    particles = None
-    if (folder / f"{name}.extxyz").exists():
-        with open(folder / f"{name}.extxyz") as file:
-            first = file.readline().strip()
-        particles = int(first) if first.isdigit() else None
-    return {**summary, "name": name, "trace": trace, "particles": particles, "hard": hard}
+    return {**summary, "name": name, "trace": trace, "particles": particles_of(folder / f"{name}.extxyz"), "hard": hard}
 
 
 def path_title(path, result, temperature):

@@ -3,8 +3,8 @@
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
-from plot_style import (BLUE, GREY, VERMILLION, Unusable, decade_ticks, legend_above, letter, plt, read_table, running, save,
-                        system_parts, title)
+from plot_style import (BLUE, GREY, VERMILLION, Unusable, decade_ticks, legend_above, letter, particles_of, plt, read_table, running,
+                        save, system_parts, title)
 
 WINDOWS = 100  # of running statistics along a path, and bins of multipliers
 
@@ -66,7 +66,7 @@ def draw_room(axes, paths):
     axes.set_yscale("log")
     decade_ticks(axes.yaxis, 7)
     axes.set_ylabel(rf"${'h' if hard else 'E_L-V'}\;\;[{unit}]$")
-    letter(axes, "(a) smallest gap" if hard else "(a) room below $E_L$")
+    letter(axes, "(a) smallest gap at nodes" if hard else "(a) room below $E_L$ at nodes")
     legend_above(axes)
 
 
@@ -109,7 +109,7 @@ def draw_shortened(folder, paths, result, temperature):
     figure, panels = plt.subplots(4, 1, sharex=True, figsize=(10.0, 11.0), gridspec_kw={"height_ratios": [3, 3, 2.3, 2.3], "hspace": 0.34})
     change = 100.0 * (1.0 - result["length"] / result["length_before"])
     before, after = ((result["distance"] / result[key]) ** 2 for key in ("length_before", "length"))
-    title(figure, system_parts(result, temperature, None)
+    title(figure, system_parts(result, temperature, particles_of(folder / "path-0001.extxyz"))
           + [rf"$\Delta R={result['distance']:.1f}\,\sigma$", f"{change:.3g} % shorter\n"
              rf"$(\Delta R/g)^2$ from {before:.3f} to {after:.3f}"], above=0.55)
     draw_room(panels[0], paths)

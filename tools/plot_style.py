@@ -60,6 +60,15 @@ def read_run_file(folder):
         raise Unusable(f"{file}: not TOML: {error}") from error
 
 
+def particles_of(file):
+    """The number of particles in the first line of an extended XYZ file; None if it is unknown."""
+    if not file.exists():
+        return None
+    with open(file) as lines:
+        first = lines.readline().strip()
+    return int(first) if first.isdigit() else None
+
+
 def read_table(file, required, text=("phase",)):
     """Columns by name, as arrays of numbers; columns in `text` stay strings. Raises Unusable if a required column is missing."""
     reader = csv.DictReader(read_text(file).splitlines())
