@@ -21,9 +21,8 @@ module lanescape_short_paths
     character(:), allocatable :: outcome, reason  ! reached, step_limit, stalled, interrupted; why it is not reached
     logical :: reached = .false.
     real(dp) :: length_before = 0, length = 0, distance = 0, ratio_squared = 0, landscape_energy = 0, largest_violation = 0
-    ! As in lanescape_path_certificate; not allocated where the frames are only some points of the path.
-    real(dp), allocatable :: kuhn_tucker_residual, multipliers(:)
-    real(dp), allocatable :: start_lengths(:)     ! of the path that each start found
+    ! The first two as in lanescape_path_certificate, not allocated where the frames are only some points of the path.
+    real(dp), allocatable :: kuhn_tucker_residual, multipliers(:), start_lengths(:)  ! of the path that each start found
     integer(c_int64_t) :: evaluations = 0         ! that found the path, not those of trials that failed
     real(dp) :: seconds = 0
     integer :: particles = 0, frames = 0          ! frames: ends included

@@ -120,6 +120,13 @@ TEST(ShortenPath, ByItsCurveIsTheGeodesicOfTwoSpheres) {
   EXPECT_EQ(path.largest_violation, certificate.largest_violation);
 }
 
+TEST(ShortenPath, OfHardSpheresByItsCurveIsTheirGeodesic) {
+  const ShortPath path = shorten_path(spheres, two, cube, turned(3.0, 0.0), turned(3.0, 170.0), by("curve", "away"));
+  EXPECT_TRUE(path.reached()) << path.reason;
+  EXPECT_NEAR(path.length, 6.1620 / std::numbers::sqrt2, 1e-4 * path.length);
+  EXPECT_EQ(path.multipliers, check_path(spheres, two, cube, path.frames, {}).multipliers);
+}
+
 TEST(ShortenPath, StartsFromAGivenPathThatMayRunTheOtherWay) {
   OfAHost host;
   Frames frames = find_path(lj, two, cube, start, finish, {.frames = 20}).frames;
