@@ -66,8 +66,10 @@ ShortPath short_path_of(ShortenResult found, double distance) {
   path.landscape_energy = shortest.landscape_energy;
   path.largest_violation = shortest.largest_violation;
   path.evaluations = shortest.evaluations;
-  path.kuhn_tucker_residual = found.shortest.kuhn_tucker_residual;
-  path.multipliers = std::move(found.shortest.multipliers);
+  if (found.shortest.check) {
+    path.kuhn_tucker_residual = found.shortest.check->kuhn_tucker_residual;
+    path.multipliers = std::move(found.shortest.check->multipliers);
+  }
   for (Configuration& frame : shortest.frames) path.frames.push_back(std::move(frame.positions));
   return path;
 }

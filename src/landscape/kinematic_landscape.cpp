@@ -19,6 +19,12 @@ KinematicMetric::KinematicMetric(const Mixture& model, const ParticleLayout& lay
     }
 }
 
+AlignedArray KinematicMetric::coordinates(const ParticleLayout& layout, std::span<const double> positions) const {
+  AlignedArray q = layout.to_slots(positions);
+  to_kinematic(q);
+  return q;
+}
+
 void KinematicMetric::to_kinematic(AlignedArray& positions) const {
   for (std::size_t k = 0; k < scale_.size(); ++k) positions[k] *= scale_[k];
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "configuration/mixture.hpp"
@@ -17,6 +18,8 @@ class KinematicMetric {
   bool is_euclidean() const { return scale_.empty(); }
   void to_kinematic(AlignedArray& positions) const;
   void to_positions(AlignedArray& q) const;
+  // Of 3N positions in the user's order.
+  AlignedArray coordinates(const ParticleLayout& layout, std::span<const double> positions) const;
   // Turns dV/dr into dV/dq.
   void gradient_to_kinematic(AlignedArray& gradient) const { to_positions(gradient); }
 

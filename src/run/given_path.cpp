@@ -51,9 +51,7 @@ void check_allowed(const std::vector<Configuration>& nodes, const SearchSetup& s
       }
       continue;
     }
-    AlignedArray q = setup.prepared.layout.to_slots(nodes[k].positions);
-    setup.prepared.metric.to_kinematic(q);
-    const double here = landscape->energy(q);
+    const double here = landscape->energy(setup.prepared.metric.coordinates(setup.prepared.layout, nodes[k].positions));
     if (!(here <= energy + EscapeStepper::Options{}.tolerance))
       throw_bad_input(fmt::format("{}: its energy {} is above the landscape energy {} of the pair", frame, here, energy));
   }

@@ -33,9 +33,7 @@ AllowedRegion allowed_region(const SearchSetup& setup) {
 }  // namespace
 
 AlignedArray kinematic_coordinates(const SearchSetup& setup, const std::vector<double>& positions) {
-  AlignedArray q = setup.prepared.layout.to_slots(positions);
-  setup.prepared.metric.to_kinematic(q);
-  return q;
+  return setup.prepared.metric.coordinates(setup.prepared.layout, positions);
 }
 
 std::optional<std::vector<double>> neighbour_configuration(const SearchSetup& setup, const std::vector<double>& from,

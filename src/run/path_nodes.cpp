@@ -45,10 +45,7 @@ PathNodes path_nodes(const AnyModel& model, const std::vector<Configuration>& pa
 
 PathNodes path_nodes(const Mixture& mixture, const ParticleLayout& layout, const std::vector<Configuration>& path) {
   PathNodes result{layout, KinematicMetric(mixture, layout), {}};
-  for (const Configuration& node : path) {
-    result.nodes.push_back(layout.to_slots(node.positions));
-    result.metric.to_kinematic(result.nodes.back());
-  }
+  for (const Configuration& node : path) result.nodes.push_back(result.metric.coordinates(layout, node.positions));
   return result;
 }
 

@@ -77,10 +77,8 @@ std::unique_ptr<PathPieces> paths_through(const SearchSetup& whole, const std::v
 
 PreparedPair with_ends(const PreparedPair& prepared, const std::vector<double>& from, const std::vector<double>& to, Isa isa) {
   PreparedPair other = prepared;
-  other.start = prepared.layout.to_slots(from);
-  other.goal = prepared.layout.to_slots(to);
-  other.metric.to_kinematic(other.start);
-  other.metric.to_kinematic(other.goal);
+  other.start = prepared.metric.coordinates(prepared.layout, from);
+  other.goal = prepared.metric.coordinates(prepared.layout, to);
   other.distance = VectorAlgebra(kernel_table(isa)).distance(other.start, other.goal);
   return other;
 }

@@ -27,10 +27,9 @@ std::vector<double> displacements(const Configuration& first, const Configuratio
 }
 
 PreparedPair prepared_ends(const Mixture& mixture, const ParticleLayout& layout, const ConfigurationPair& pair, Isa isa) {
-  PreparedPair prepared{layout, KinematicMetric(mixture, layout), layout.to_slots(pair.start.positions),
-                        layout.to_slots(pair.finish.positions)};
-  prepared.metric.to_kinematic(prepared.start);
-  prepared.metric.to_kinematic(prepared.goal);
+  PreparedPair prepared{layout, KinematicMetric(mixture, layout), {}, {}};
+  prepared.start = prepared.metric.coordinates(layout, pair.start.positions);
+  prepared.goal = prepared.metric.coordinates(layout, pair.finish.positions);
   prepared.distance = VectorAlgebra(kernel_table(isa)).distance(prepared.start, prepared.goal);
   return prepared;
 }
@@ -103,6 +102,14 @@ std::unique_ptr<SoftLandscape> path_landscape(const SearchSetup& setup) {
                                   setup.prepared.metric);
 }
 
+void add_statistics(PathResult& result, const PathStatistics& statistics, const ParticleLayout& layout) {
+  result.length = statistics.length();
+  result.participation_number = statistics.participation_number();
+  result.histograms = statistics.histograms();
+  for (std::size_t j = 0; j < layout.size(); ++j)
+    result.particle_lengths.push_back(statistics.particle_lengths()[layout.slot_of(j)]);
+}
+
 void add_heterogeneity(PathResult& result, std::size_t species_count) {
   result.particle_displacements = displacements(result.frames.front(), result.frames.back());
   result.heterogeneity =
@@ -137,7 +144,9 @@ std::vector<Configuration> PathSearch::frames() const {
     frames.push_back(
         {pair.start.box, pair.start.species, setup_.prepared.layout.to_user(q), pair.start.radii, pair.start.diameters});
   };
-  for (const AlignedArray& q : recorder().frames()) add(q);
+  // The last point of a path, at which a frame may be due, can be its goal.
+  for (const AlignedArray& q : recorder().frames())
+    if (q != setup_.goal()) add(q);
   if (outcome() == Outcome::reached)
     frames.push_back(setup_.reversed ? pair.start : pair.finish);
   else
@@ -150,16 +159,12 @@ PathResult PathSearch::result() {
   PathResult result;
   result.outcome = finished() ? outcome() : Outcome::interrupted;
   result.reversed = setup_.reversed;
-  result.length = statistics().length();
-  result.participation_number = statistics().participation_number();
+  add_statistics(result, statistics(), layout);
   result.distance = setup_.prepared.distance;
   result.landscape_energy = setup_.prepared.landscape_energy;
   result.seconds = clock().seconds();
   result.trace = recorder().trace();
-  result.histograms = statistics().histograms();
   add_counts(result);
-  for (std::size_t j = 0; j < layout.size(); ++j)
-    result.particle_lengths.push_back(statistics().particle_lengths()[layout.slot_of(j)]);
   result.frames = frames();
   add_heterogeneity(result, layout.blocks().size());
   return result;

@@ -58,6 +58,8 @@ std::unique_ptr<SoftLandscape> in_kinematic_coordinates(std::unique_ptr<SoftLand
 // The landscape of soft particles on which a path runs, in kinematic coordinates.
 std::unique_ptr<SoftLandscape> path_landscape(const SearchSetup& setup);
 
+// Fills in what is summed along a path: its length, participation, histograms and lengths of particles.
+void add_statistics(PathResult& result, const PathStatistics& statistics, const ParticleLayout& layout);
 // Fills in the displacements of the particles and the widths of heterogeneity, from frames and lengths of particles.
 void add_heterogeneity(PathResult& result, std::size_t species_count);
 

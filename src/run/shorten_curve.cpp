@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -21,9 +20,8 @@
 namespace lanescape {
 namespace {
 
-constexpr std::size_t frames_of_first_path = 1000;
 // A path with a larger residual is not called stationary.
-constexpr double stationary_residual = 1e-2;
+constexpr double largest_residual = 1e-2;
 // Spacing of nodes at first, for 108 particles of unit diameter: normals of the boundary turn over lengths that grow with sqrt(N).
 // Hard spheres bend only where they touch.
 constexpr double coarse_spacing = 0.5, hard_coarse_spacing = 2.0, spacing_particles = 108.0;
@@ -40,11 +38,12 @@ class CurveShorteningWork final : public ShortenWork {
     if (start_ == 1)
       first_path_ = std::make_unique<PathPieces>(
           setup_, std::vector<PathPieces::Piece>{{setup_.pair.finish.positions, setup_.pair.start.positions, true}},
-          frames_of_first_path);
+          recorded_configurations);
   }
 
   bool finished() const override { return !failure_.empty() || (curve_ && curve_->finished()); }
   double length() const override { return curve_ && failure_.empty() ? curve_->length() : initial_->length; }
+  bool succeeded() const override { return failure_.empty() && curve_ && curve_->finished() && curve_->reason().empty(); }
   bool save_due() const override {
     return curve_ ? curve_->iterations() % iterations_per_checkpoint == 0 : !first_path_ || first_path_->save_due();
   }
@@ -72,14 +71,10 @@ class CurveShorteningWork final : public ShortenWork {
 
   ShortenedPath result() override {
     if (!curve_ || !failure_.empty()) return unchanged();
-    PathCheck check = certificate();
-    ShortenedPath shortened;
-    shortened.path = measured_path();
-    shortened.path.largest_violation = check.largest_violation;
-    shortened.kuhn_tucker_residual = check.kuhn_tucker_residual;
-    shortened.multipliers = std::move(check.multipliers);
-    shortened.curve = CurveReport{curve_->length_change(), curve_->levels(), curve_->iterations()};
-    judge(shortened);
+    ShortenedPath shortened{
+        measured_path(), certificate(), {}, CurveReport{curve_->length_change(), curve_->levels(), curve_->iterations()}};
+    shortened.path.largest_violation = shortened.check->largest_violation;
+    judge(shortened.path, shortened.check->kuhn_tucker_residual);
     return shortened;
   }
 
@@ -104,7 +99,7 @@ class CurveShorteningWork final : public ShortenWork {
     if (!point) return;
     if (point->empty()) return begin_curve(*initial_);
     neighbour_ = std::move(*point);
-    first_path_ = paths_through(setup_, neighbour_, frames_of_first_path);
+    first_path_ = paths_through(setup_, neighbour_, recorded_configurations);
   }
 
   void advance_first_path() {
@@ -117,11 +112,7 @@ class CurveShorteningWork final : public ShortenWork {
 
   void begin_curve(const PathResult& path) {
     Polyline nodes;
-    for (const Configuration& frame : path.frames) {
-      AlignedArray q = kinematic_coordinates(setup_, frame.positions);
-      // The last frame of a search may be its goal.
-      if (nodes.empty() || nodes.back() != q) nodes.push_back(std::move(q));
-    }
+    for (const Configuration& frame : path.frames) nodes.push_back(kinematic_coordinates(setup_, frame.positions));
     curve_ = make_curve();
     curve_->begin(nodes);
   }
@@ -174,14 +165,10 @@ class CurveShorteningWork final : public ShortenWork {
     PathStatistics statistics(layout.slots(), layout.size(), Stepping::adaptive);
     for (std::size_t k = 0; k + 1 < nodes.size(); ++k) statistics.add_step(algebra_, nodes[k], nodes[k + 1]);
     PathResult path;
-    path.length = statistics.length();
     path.distance = setup_.prepared.distance;
-    path.participation_number = statistics.participation_number();
-    path.histograms = statistics.histograms();
+    add_statistics(path, statistics, layout);
     path.evaluations = curve_->evaluations();
     path.landscape_energy = setup_.prepared.landscape_energy;
-    for (std::size_t j = 0; j < layout.size(); ++j)
-      path.particle_lengths.push_back(statistics.particle_lengths()[layout.slot_of(j)]);
     path.frames = configurations_of(nodes, layout, setup_.prepared.metric, setup_.pair.start);
     path.frames.front() = setup_.pair.start;
     path.frames.back() = setup_.pair.finish;
@@ -190,19 +177,17 @@ class CurveShorteningWork final : public ShortenWork {
     return path;
   }
 
-  void judge(ShortenedPath& shortened) const {
-    PathResult& path = shortened.path;
+  void judge(PathResult& path, double residual) const {
     path.outcome = curve_->finished() ? Outcome::reached : Outcome::interrupted;
     if (!curve_->finished()) return;
     path.reason = curve_->reason();
-    if (path.reason.empty() && *shortened.kuhn_tucker_residual > stationary_residual)
-      path.reason =
-          fmt::format("no step makes it shorter, but its Kuhn-Tucker residual is {:.3g}", *shortened.kuhn_tucker_residual);
+    if (path.reason.empty() && residual > largest_residual)
+      path.reason = fmt::format("no step makes it shorter, but its Kuhn-Tucker residual is {:.3g}", residual);
     if (!path.reason.empty()) path.outcome = Outcome::stalled;
   }
 
   void resume_at(std::uint64_t stage) {
-    if (stage == 1 && !first_path_) first_path_ = paths_through(setup_, neighbour_, frames_of_first_path);
+    if (stage == 1 && !first_path_) first_path_ = paths_through(setup_, neighbour_, recorded_configurations);
     if (stage == 2) curve_ = make_curve();
     if (stage != 1) first_path_.reset();
   }

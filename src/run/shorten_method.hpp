@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -8,12 +9,16 @@
 #include <string_view>
 #include <vector>
 
+#include "path/path_check.hpp"
 #include "run/path_run.hpp"
 #include "run/run_loop.hpp"
 
 namespace lanescape {
 
 struct SearchSetup;
+
+// Of a path that methods start from, as in the source.
+inline constexpr std::size_t recorded_configurations = 1000;
 
 // One trial of a method that shortens by trials.
 struct ShortenTrial {
@@ -29,11 +34,10 @@ struct CurveReport {
 };
 
 struct ShortenedPath {
-  PathResult path;                             // frames: the nodes, ends included
-  std::optional<double> kuhn_tucker_residual;  // PHYSICS 4; none where the nodes alone are no path
-  std::vector<ShortenTrial> trials;            // of methods that make trials
-  std::optional<CurveReport> curve;            // of curve shortening
-  std::vector<double> multipliers{};           // of each node, where there is a residual
+  PathResult path;                   // frames: the nodes, ends included
+  std::optional<PathCheck> check;    // certificate of the nodes; none where the nodes alone are no path
+  std::vector<ShortenTrial> trials;  // of methods that make trials
+  std::optional<CurveReport> curve;  // of curve shortening
 };
 
 // What shortening starts from. All of it must outlive the work.
@@ -49,11 +53,14 @@ class ShortenWork : public ResumableWork {
   // The path as short as it is by now.
   virtual ShortenedPath result() = 0;
   virtual double length() const = 0;
+  // Whether the method ended by its own rule.
+  virtual bool succeeded() const = 0;
 };
 
 // A method of shortening paths.
 struct ShortenMethod {
-  const char* word;  // of --method
+  const char* word;   // of --method
+  const char* units;  // what its progress counts
   std::unique_ptr<ShortenWork> (*begin)(const ShortenSetup& setup);
 };
 
@@ -62,7 +69,7 @@ std::span<const ShortenMethod> shorten_methods();
 const ShortenMethod& default_shorten_method();
 // Throws Error(bad_input) naming the allowed words.
 const ShortenMethod& shorten_method(std::string_view word);
-// "montecarlo, curve"
+// "curve, montecarlo"
 std::string shorten_method_words();
 
 }  // namespace lanescape

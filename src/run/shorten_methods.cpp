@@ -10,7 +10,8 @@
 namespace lanescape {
 namespace {
 
-constexpr ShortenMethod shortening[] = {{"curve", begin_curve_shortening}, {"montecarlo", begin_montecarlo_shortening}};
+constexpr ShortenMethod shortening[] = {{"curve", "iterations", begin_curve_shortening},
+                                        {"montecarlo", "trials", begin_montecarlo_shortening}};
 
 }  // namespace
 

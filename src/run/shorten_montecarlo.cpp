@@ -11,7 +11,6 @@ namespace lanescape {
 namespace {
 
 // As in the source.
-constexpr std::size_t recorded_configurations = 1000;
 constexpr std::uint64_t allowed_failures = 5;
 
 class MonteCarloShortening final : public ShortenWork {
@@ -27,6 +26,7 @@ class MonteCarloShortening final : public ShortenWork {
 
   bool finished() const override { return failures_ >= allowed_failures; }
   double length() const override { return path_.length; }
+  bool succeeded() const override { return finished(); }
   bool save_due() const override { return !trial_ || trial_->save_due(); }
   ShortenedPath result() override { return {path_, std::nullopt, trials_, std::nullopt}; }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -14,9 +13,6 @@
 
 namespace lanescape {
 namespace {
-
-// What methods may start from: the source's number of configurations.
-constexpr std::size_t frames_of_initial_path = 1000;
 
 std::vector<PathPieces::Piece> initial_pieces(const ConfigurationPair& pair, const std::vector<Configuration>& nodes) {
   if (nodes.empty()) return {{pair.start.positions, pair.finish.positions}};
@@ -42,14 +38,16 @@ struct Starts {
   }
 };
 
-// Takes over the shortest path of all starts.
+// Takes over the shortest path of the starts that succeeded, or of all where none did.
 void keep_shortest(ShortenResult& result, const std::vector<std::unique_ptr<ShortenWork>>& starts) {
   for (const auto& start : starts) {
     result.start_lengths.push_back(start->length());
     result.seconds += start->clock().seconds();
   }
-  const auto shortest = std::min_element(result.start_lengths.begin(), result.start_lengths.end());
-  result.shortest = starts[static_cast<std::size_t>(std::distance(result.start_lengths.begin(), shortest))]->result();
+  const auto is_better = [](const auto& a, const auto& b) {
+    return std::pair(!a->succeeded(), a->length()) < std::pair(!b->succeeded(), b->length());
+  };
+  result.shortest = (*std::min_element(starts.begin(), starts.end(), is_better))->result();
 }
 
 void shorten(ShortenResult& result, const Starts& starts, std::size_t count, int threads) {
@@ -79,7 +77,7 @@ void ShortenOptions::check(const AnyModel& model) const {
 
 ShortenResult shorten_between(const SearchSetup& search, const std::vector<Configuration>& nodes, const ShortenOptions& options,
                               const WorkLoop& loop, RunMonitor& monitor) {
-  PathPieces initial(search, initial_pieces(search.pair, nodes), frames_of_initial_path);
+  PathPieces initial(search, initial_pieces(search.pair, nodes), recorded_configurations);
   const bool stopped = loop(initial, "shorten-initial.h5", monitor);
   const PathResult& before = initial.joined();
   ShortenResult result;
@@ -89,7 +87,7 @@ ShortenResult shorten_between(const SearchSetup& search, const std::vector<Confi
   result.seconds = initial.clock().seconds();
   result.initial = before.frames;
   if (result.outcome != Outcome::reached) return result;
-  SharedProgress progress(monitor, "trials", options.starts, 0.0);
+  SharedProgress progress(monitor, options.method->units, options.starts, 0.0);
   shorten(result, {search, before, options, loop, progress}, options.starts, search.landscape ? 1 : options.search.threads);
   return result;
 }

@@ -100,7 +100,7 @@ Json to_json(const ShortenResult& result, const PathMethod& method, const Mixtur
   } else {
     for (const char* key : {"length", "ratio_squared", "largest_violation"}) json[key] = nullptr;
   }
-  json["kuhn_tucker_residual"] = shortest.kuhn_tucker_residual ? Json(*shortest.kuhn_tucker_residual) : Json();
+  json["kuhn_tucker_residual"] = shortest.check ? Json(shortest.check->kuhn_tucker_residual) : Json();
   json["nodes"] = shortest.path.frames.size();
   if (shortest.curve) {
     json["length_change"] = shortest.curve->length_change;
@@ -132,26 +132,15 @@ std::vector<Configuration> some_of(const std::vector<Configuration>& nodes, std:
   return chosen;
 }
 
-// The last recorded point of a path may be its end.
-std::vector<Configuration> without_repeats(std::vector<Configuration> nodes) {
-  const auto same = [](const Configuration& a, const Configuration& b) { return a.positions == b.positions; };
-  nodes.erase(std::unique(nodes.begin(), nodes.end(), same), nodes.end());
-  return nodes;
-}
-
-// Where the nodes allow it: those of a path that is found step by step are a few of its points, which may be fewer than 3. That is
-// no reason to lose a result. Between two of them the path may touch the boundary: they count as on it from farther away.
-std::optional<CheckedPath> certificate(const std::vector<Configuration>& nodes, const AnyModel& model,
-                                       std::optional<double> landscape_energy, Isa isa, int threads, bool needed) {
-  PathCheckOptions options{.threads = threads};
-  if (!needed) {
-    options.boundary_tolerance = 0.1;
-    options.contact_tolerance = 1e-2;
-  }
+// Of a few points of a path, which may be fewer than the 3 that a certificate needs: that is no reason to lose a result. Between
+// two of them the path may touch the boundary: they count as on it from farther away.
+std::optional<PathCheck> coarse_check(const std::vector<Configuration>& points, const AnyModel& model,
+                                      std::optional<double> landscape_energy, Isa isa, int threads) {
   try {
-    return check_path(model, nodes, landscape_energy, isa, options);
+    return check_path(model, points, landscape_energy, isa,
+                      {.boundary_tolerance = 0.1, .contact_tolerance = 1e-2, .threads = threads})
+        .check;
   } catch (const Error&) {
-    if (needed) throw;
     return std::nullopt;
   }
 }
@@ -160,14 +149,16 @@ void write_files(OutputFolder& folder, const ShortenResult& result, const Shorte
   if (result.shortest.path.frames.empty()) return;
   PathResult path = result.shortest.path;
   const std::optional<double> landscape_energy = is_hard(model) ? std::nullopt : std::optional(path.landscape_energy);
-  const bool whole = result.shortest.kuhn_tucker_residual.has_value();
-  const auto write_nodes = [&](const char* name, const std::vector<Configuration>& nodes, bool needed) {
-    const auto checked = certificate(nodes, model, landscape_energy, isa, state.common.threads, needed);
-    if (needed) write_whole_path(folder, 0, model, nodes, landscape_energy, checked->check, state.method, isa);
-    if (checked) folder.write(name, [&](std::ostream& out) { write_node_table(out, model, nodes, checked->check, isa); });
+  const auto write_nodes = [&](const char* name, const std::vector<Configuration>& nodes, const std::optional<PathCheck>& check) {
+    if (check) folder.write(name, [&](std::ostream& out) { write_node_table(out, model, nodes, *check, isa); });
   };
-  write_nodes("initial-0001-nodes.csv", without_repeats(result.initial), false);
-  write_nodes("path-0001-nodes.csv", whole ? path.frames : without_repeats(path.frames), whole);
+  const auto points = [&](const std::vector<Configuration>& of) {
+    return coarse_check(of, model, landscape_energy, isa, state.common.threads);
+  };
+  if (result.shortest.check)
+    write_whole_path(folder, 0, model, path.frames, landscape_energy, *result.shortest.check, state.method, isa);
+  write_nodes("initial-0001-nodes.csv", result.initial, points(result.initial));
+  write_nodes("path-0001-nodes.csv", path.frames, result.shortest.check ? result.shortest.check : points(path.frames));
   path.frames = some_of(path.frames, state.path.frames);
   write_path_files(folder, 0, path, mixture_of(model));
   if (!result.shortest.trials.empty())
@@ -230,7 +221,8 @@ Subcommand add_shorten(CLI::App& app) {
   options->add("--path", state->path_file,
                "file with the frames of a path between them, as path writes it; without it the path method finds one");
   options->add("--method", state->method, fmt::format("how to shorten: {}", shorten_method_words()));
-  options->add("--starts", state->starts, "runs with other random numbers; the shortest path is kept");
+  options->add("--starts", state->starts,
+               "independent runs, from other paths or with other random numbers; the shortest path is kept");
   state->path.add_to(*options, "--path-method");
   options->add("--frames", state->path.frames, "configurations of the path to write between its ends")
       .only_for({runs_with_a_folder});

@@ -8,6 +8,9 @@
 
 namespace lanescape {
 
+// Of PHYSICS 4; a path below it is stationary.
+inline constexpr double stationary_residual = 5e-3;
+
 // How far one iteration has brought a path.
 enum class Relaxation : std::uint64_t {
   continues,

@@ -186,7 +186,7 @@ Relaxation HardCurve::iterate() {
   nodes_->follow(now_);
   residual_ = measured_residual();
   const double limit = nodes_->planes() == HardNodes::Planes::of_segments ? 1.0 : sliding_limit;
-  if (residual_ < limit * options_.residual) return Relaxation::stationary;
+  if (residual_ < limit * stationary_residual) return Relaxation::stationary;
   const bool tight = nodes_->planes() != HardNodes::Planes::of_nodes;
   return tight && ++tight_iterations_ >= most_tight_iterations ? Relaxation::stopped : Relaxation::continues;
 }

@@ -10,7 +10,6 @@
 namespace lanescape {
 
 struct HardCurveOptions {
-  double residual = 5e-3;    // a path below it is stationary
   double length_unit = 1.0;  // of the system [sigma]
   int threads = 1;
 };

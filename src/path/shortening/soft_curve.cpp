@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "path/bend.hpp"
+#include "path/path_check.hpp"
 
 namespace lanescape {
 namespace {
@@ -18,6 +19,9 @@ constexpr double curvature_displacement = 0.01;  // for differences of gradients
 constexpr double damping = 4.0;
 constexpr double smallest_trust = 1e-7;
 constexpr int most_improvements = 60;
+constexpr double allowed_violation = 2.5e-4;  // of V - E_L on a segment that tighten() lets stand [epsilon]
+// A node this far below its level is on the boundary [epsilon].
+constexpr double boundary_tolerance = PathCheckOptions{}.boundary_tolerance;
 
 // Multipliers of a coarser path at the nodes of a finer one: they are second differences, which fall with the square of the
 // spacing.
@@ -144,7 +148,7 @@ double SoftCurve::measured_residual() const {
     AlignedArray left(now_->nodes.front().size(), 0.0);
     for (std::size_t k = begin; k < end; ++k) {
       const AlignedArray& tau = bend.at(k);
-      const bool on_boundary = now_->energies[k] > levels_[k] - options_.boundary_tolerance;
+      const bool on_boundary = now_->energies[k] > levels_[k] - boundary_tolerance;
       const double lambda = on_boundary ? std::max(0.0, nodes_->algebra().dot(tau, now_->normals[k])) : 0.0;
       nodes_->algebra().axpy(left, tau, -lambda, now_->normals[k]);
       norms.set(k, nodes_->algebra().norm(tau), nodes_->algebra().norm(left), bend.floor());
@@ -165,21 +169,21 @@ Relaxation SoftCurve::iterate() {
     trust_ = reach / 3.0;
   }
   residual_ = measured_residual();
-  if (residual_ < options_.residual) return Relaxation::stationary;
+  if (residual_ < stationary_residual) return Relaxation::stationary;
   return trust_ < smallest_trust * scale_ ? Relaxation::stopped : Relaxation::continues;
 }
 
 // Between nodes on E_L a path that bends around the forbidden region cuts into it. Levels below E_L let each segment touch E_L: a
 // node moves by what the worse of its segments is too high, or too low if it is on the boundary.
 bool SoftCurve::tighten() {
-  const std::vector<double> largest = nodes_->segment_energies(*now_, 10);
+  const std::vector<double> largest = nodes_->segment_energies(*now_, PathCheckOptions{}.samples);
   std::vector<double> levels = levels_;
   bool changed = false;
   for (std::size_t k = 1; k + 1 < levels.size(); ++k) {
     const double excess = std::max(largest[k - 1], largest[k]) - landscape_energy_;
     const bool on_boundary = boundary_->multipliers()[k] > 0.0;
-    changed = changed || excess > options_.violation || (on_boundary && excess < -options_.boundary_tolerance);
-    if (excess > 0.0 || on_boundary) levels[k] = std::min(landscape_energy_, levels[k] - excess - 0.5 * options_.violation);
+    changed = changed || excess > allowed_violation || (on_boundary && excess < -boundary_tolerance);
+    if (excess > 0.0 || on_boundary) levels[k] = std::min(landscape_energy_, levels[k] - excess - 0.5 * allowed_violation);
   }
   if (!changed) return false;
   levels_ = std::move(levels);

@@ -10,10 +10,7 @@
 namespace lanescape {
 
 struct SoftCurveOptions {
-  double residual = 5e-3;            // a path below it is stationary
-  double violation = 2.5e-4;         // of V - E_L on a segment that tighten() lets stand [epsilon]
-  double boundary_tolerance = 1e-3;  // a node this far below its level is still on the boundary [epsilon]
-  double length_unit = 1.0;          // of the system [sigma]
+  double length_unit = 1.0;  // of the system [sigma]
   int threads = 1;
 };
 

@@ -260,6 +260,35 @@ TEST(Shorten, RefusesOptionsOutOfRange) {
   EXPECT_EQ(refusal([&] { of.result(); }).rfind("method away is not for model", 0), 0u);
 }
 
+// Ends at once: start 0 fails with the shortest path, the others succeed.
+class Ended final : public ShortenWork {
+ public:
+  explicit Ended(const ShortenSetup& setup) : start_(setup.start), path_(setup.initial) {
+    path_.length = start_ == 0 ? 1.0 : 10.0 - start_;
+  }
+  bool finished() const override { return true; }
+  void advance(RunMonitor&) override {}
+  void exchange(Archive&) override {}
+  ShortenedPath result() override { return {path_, {}, {}, {}}; }
+  double length() const override { return path_.length; }
+  bool succeeded() const override { return start_ != 0; }
+
+ private:
+  std::uint32_t start_;
+  PathResult path_;
+};
+
+TEST(Shorten, KeepsTheShortestOfTheStartsThatSucceeded) {
+  constexpr ShortenMethod ended{
+      "ended", "ends", [](const ShortenSetup& setup) -> std::unique_ptr<ShortenWork> { return std::make_unique<Ended>(setup); }};
+  Case of("contour");
+  of.options.method = &ended;
+  of.options.starts = 3;
+  const ShortenResult result = of.result();
+  EXPECT_EQ(result.start_lengths, (std::vector<double>{1.0, 9.0, 8.0}));
+  EXPECT_EQ(result.shortest.path.length, 8.0);
+}
+
 TEST(ShortenMethod, HasWordsThatAreReadBack) {
   for (const ShortenMethod& method : shorten_methods()) EXPECT_EQ(&shorten_method(method.word), &method);
   EXPECT_EQ(std::string(default_shorten_method().word), "curve");
