@@ -18,7 +18,7 @@ class BoundaryProblem {
   BoundaryProblem(const VectorAlgebra& algebra, const NodeBlocks& blocks, std::size_t nodes, std::size_t dimension);
 
   // Overwrites `step`. Starts from the multipliers found last, and leaves the new ones. `tolerance` is how far a step may come
-  // beyond c_k. At least one normal per node of unit length, or zero for a node that is free.
+  // beyond c_k. Normals have unit length, or are zero where there is no constraint.
   void solve(const Polyline& pull, const Polyline& normals, const std::vector<double>& room, double shift, double tolerance,
              Polyline& step);
   // Overwrites `out` by the part of (L + shift)^-1 field that keeps n_k.out_k = 0 at the nodes on the boundary: the preconditioner
