@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 
 #include "core/aligned_array.hpp"
@@ -40,5 +41,8 @@ class SoftLandscape {
   // belongs to the state of any dynamics or path on this landscape.
   virtual void exchange(Archive&) {}
 };
+
+// Makes landscapes of one system, for threads and for parts of a path that must not share lists.
+using SoftLandscapeMaker = std::function<std::unique_ptr<SoftLandscape>()>;
 
 }  // namespace lanescape

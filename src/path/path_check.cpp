@@ -105,8 +105,8 @@ PathCheck check_path(SoftLandscape& landscape, double landscape_energy, const Po
   return check.result(landscape.algebra());
 }
 
-PathCheck check_path(const std::function<std::unique_ptr<SoftLandscape>()>& make_landscape, double landscape_energy,
-                     const Polyline& nodes, const PathCheckOptions& options) {
+PathCheck check_path(const SoftLandscapeMaker& make_landscape, double landscape_energy, const Polyline& nodes,
+                     const PathCheckOptions& options) {
   const FloatEnvironment environment;
   options.check();
   const std::unique_ptr<SoftLandscape> first = make_landscape();

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -54,8 +53,8 @@ struct PathCheck {
 PathCheck check_path(SoftLandscape& landscape, double landscape_energy, const Polyline& nodes,
                      const PathCheckOptions& options = {});
 // The same on as many threads as asked for, each with landscapes of its own.
-PathCheck check_path(const std::function<std::unique_ptr<SoftLandscape>()>& make_landscape, double landscape_energy,
-                     const Polyline& nodes, const PathCheckOptions& options = {});
+PathCheck check_path(const SoftLandscapeMaker& make_landscape, double landscape_energy, const Polyline& nodes,
+                     const PathCheckOptions& options = {});
 
 // What the path of hard spheres moves through.
 struct HardSpherePath {

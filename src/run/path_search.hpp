@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -26,14 +25,11 @@ struct PreparedPair {
   double distance = 0.0, landscape_energy = 0.0;
 };
 
-// Makes the landscape of soft particles on which a path runs, in positions.
-using SoftLandscapeMaker = std::function<std::unique_ptr<SoftLandscape>()>;
-
 // Throws Error(bad_input) for a pair that check_end_points() refuses, for faithful steps of hard spheres of unequal masses, and for
 // an end above a given landscape energy. Messages start with `where`.
 PreparedPair prepare_pair(const AnyModel& model, const ConfigurationPair& pair, const std::string& where,
                           const PathRunOptions& options, Isa isa);
-// The same on any landscape of soft particles with these masses; the pair is not checked.
+// The same on any landscape of soft particles with these masses, in positions; the pair is not checked.
 PreparedPair prepare_pair_on(const SoftLandscapeMaker& make, const Mixture& mixture, const ParticleLayout& layout,
                              const ConfigurationPair& pair, const std::string& where, const PathRunOptions& options, Isa isa);
 
@@ -46,7 +42,7 @@ struct SearchSetup {
   Isa isa;
   int threads = 1;  // of one evaluation
   bool reversed = false;
-  SoftLandscapeMaker landscape{};  // in place of the model's
+  SoftLandscapeMaker landscape{};  // in positions, in place of the model's
 
   const AlignedArray& start() const { return reversed ? prepared.goal : prepared.start; }
   const AlignedArray& goal() const { return reversed ? prepared.start : prepared.goal; }

@@ -137,7 +137,7 @@ class CurveShorteningWork final : public ShortenWork {
   }
   // A host's own landscape is one object: it is asked from one thread.
   int threads() const { return setup_.landscape ? 1 : setup_.threads; }
-  SoftLandscapeFactory landscape_factory() const {
+  SoftLandscapeMaker landscape_factory() const {
     return [setup = setup_]() mutable {
       setup.threads = 1;
       return path_landscape(setup);

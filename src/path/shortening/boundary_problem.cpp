@@ -60,8 +60,8 @@ void BoundaryProblem::prepare_neighbours(const Polyline& normals) {
   blocks_->for_each_node([&](std::size_t k) { neighbour_[k] = algebra_->dot(normals[k], normals[k + 1]); });
 }
 
-// Conjugate gradients from the multipliers that are there, to `accuracy` relative to the target. Returns the number of steps.
-std::size_t BoundaryProblem::solve_multipliers(const Polyline& normals, const std::vector<double>& target, double accuracy) {
+// Conjugate gradients from the multipliers that are there, to `accuracy` relative to the target.
+void BoundaryProblem::solve_multipliers(const Polyline& normals, const std::vector<double>& target, double accuracy) {
   for (std::size_t k = 0; k < nodes_; ++k)
     if (!active_[k]) multipliers_[k] = 0.0;
   multiply(normals, multipliers_, product_);
@@ -74,8 +74,7 @@ std::size_t BoundaryProblem::solve_multipliers(const Polyline& normals, const st
   precondition(residual_, conditioned_);
   direction_ = conditioned_;
   double weight = product_sum(residual_, conditioned_);
-  std::size_t steps = 0;
-  for (; steps < most_multiplier_steps && left > accuracy * accuracy * wanted; ++steps) {
+  for (std::size_t steps = 0; steps < most_multiplier_steps && left > accuracy * accuracy * wanted; ++steps) {
     multiply(normals, direction_, product_);
     const double curvature = product_sum(direction_, product_);
     if (!(curvature > 0.0)) break;
@@ -90,7 +89,6 @@ std::size_t BoundaryProblem::solve_multipliers(const Polyline& normals, const st
     weight = next;
     for (std::size_t k = 1; k + 1 < nodes_; ++k) direction_[k] = conditioned_[k] + keep * direction_[k];
   }
-  return steps;
 }
 
 // Nodes on the boundary whose multiplier has the wrong sign, and others that would leave the allowed region.

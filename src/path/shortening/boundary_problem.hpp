@@ -30,7 +30,7 @@ class BoundaryProblem {
   void set_multipliers(std::vector<double> multipliers) { multipliers_ = std::move(multipliers); }
 
  private:
-  std::size_t solve_multipliers(const Polyline& normals, const std::vector<double>& target, double accuracy);
+  void solve_multipliers(const Polyline& normals, const std::vector<double>& target, double accuracy);
   void multiply(const Polyline& normals, const std::vector<double>& weights, std::vector<double>& out);
   void precondition(const std::vector<double>& in, std::vector<double>& out) const;
   void spread(const Polyline& normals, const std::vector<double>& weights);

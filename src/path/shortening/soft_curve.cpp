@@ -39,7 +39,7 @@ std::vector<double> prolonged(const std::vector<double>& coarse, std::size_t nod
 
 }  // namespace
 
-SoftCurve::SoftCurve(SoftLandscapeFactory make_landscape, double landscape_energy, const SoftCurveOptions& options)
+SoftCurve::SoftCurve(SoftLandscapeMaker make_landscape, double landscape_energy, const SoftCurveOptions& options)
     : make_landscape_(std::move(make_landscape)), landscape_energy_(landscape_energy), options_(options) {}
 
 void SoftCurve::allocate(Polyline nodes) {

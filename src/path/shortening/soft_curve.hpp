@@ -21,7 +21,7 @@ struct SoftCurveOptions {
 // those above their level back, and takes the step if the energy fell.
 class SoftCurve final : public CurveRelaxation {
  public:
-  SoftCurve(SoftLandscapeFactory make_landscape, double landscape_energy, const SoftCurveOptions& options);
+  SoftCurve(SoftLandscapeMaker make_landscape, double landscape_energy, const SoftCurveOptions& options);
 
   void begin(Polyline nodes) override;
   Relaxation iterate() override;
@@ -43,7 +43,7 @@ class SoftCurve final : public CurveRelaxation {
   double product(const Polyline& a, const Polyline& b) const;
   double measured_residual() const;
 
-  SoftLandscapeFactory make_landscape_;
+  SoftLandscapeMaker make_landscape_;
   double landscape_energy_;
   SoftCurveOptions options_;
   double scale_ = 1.0;  // lengths in 3N space at which normals turn, for the system's size [sigma]

@@ -15,7 +15,7 @@ constexpr int most_corrections = 60;
 
 }  // namespace
 
-SoftNodes::SoftNodes(const SoftLandscapeFactory& make_landscape, std::size_t nodes, int threads)
+SoftNodes::SoftNodes(const SoftLandscapeMaker& make_landscape, std::size_t nodes, int threads)
     : blocks_(nodes, threads), scratch_(NodeBlocks::count) {
   for (Block& block : scratch_) {
     landscapes_.push_back(make_landscape());

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -13,13 +12,10 @@
 
 namespace lanescape {
 
-// Makes a landscape for the nodes of one block. Landscapes of one maker may share what is safe to share among threads.
-using SoftLandscapeFactory = std::function<std::unique_ptr<SoftLandscape>()>;
-
 // The nodes of a path on a landscape, with V, grad V and the level that V must not exceed at each.
 class SoftNodes {
  public:
-  SoftNodes(const SoftLandscapeFactory& make_landscape, std::size_t nodes, int threads);
+  SoftNodes(const SoftLandscapeMaker& make_landscape, std::size_t nodes, int threads);
 
   const NodeBlocks& blocks() const { return blocks_; }
   const VectorAlgebra& algebra() const { return landscapes_.front()->algebra(); }
@@ -35,8 +31,8 @@ class SoftNodes {
   // Moves each node by its step and, where V is above its level, back along the gradient. False if that fails at a node.
   bool move(Field& field, const Field& from, const Polyline& steps, const std::vector<double>& levels, double longest_correction);
   bool restore(Field& field, const std::vector<double>& levels, double longest_correction);
-  // out_k = (grad V(R_k + e u) - grad V(R_k))/e: the second derivative of V times u_k, of nodes with a factor above 0, by that
-  // factor and added to out.
+  // Adds factor_k times the second derivative of V times u_k, the direction, to out_k at nodes with a factor above 0. It is the
+  // difference of grad V at R_k and at R_k + u_k, with u_k scaled to the length `displacement`.
   void add_curvature(const Field& field, const Polyline& direction, const std::vector<double>& factors, double displacement,
                      Polyline& out);
   // The largest V on each segment.

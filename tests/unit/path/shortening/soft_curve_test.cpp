@@ -38,7 +38,7 @@ struct Shortened {
   CurveOptions options;
   int threads = 1;
 
-  SoftLandscapeFactory factory() const {
+  SoftLandscapeMaker factory() const {
     return [this] { return std::make_unique<PairLandscape>(model, box, layout, choose_isa("auto")); };
   }
   std::unique_ptr<CurveShortening> begin(const VectorAlgebra& algebra) const {
