@@ -35,17 +35,26 @@ struct TwoSpherePath {
     if (left < free_end()) return between(goal(), polar(s, second), left / free_end());
     return polar(s, first + (along - free_begin()) / s);
   }
-  // Straight to the goal as far as possible, then along the sphere until the goal is seen: what a greedy finder does.
+  // The greedy path, which finders take: straight to the goal as far as possible, then along the sphere until the goal is seen.
+  double greedy_length() const { return distance(start(), contact()) + s * greedy_arc() + free_end(); }
   Point greedy(double fraction) const {
-    const Point line{goal()[0] - start()[0], goal()[1] - start()[1], 0.0};
-    const double whole = std::sqrt(dot(line, line)), p = dot(start(), line) / whole;
-    const double hit = -p - std::sqrt(p * p - a * a + s * s);
-    const Point contact = between(start(), goal(), hit / whole);
-    const double from = std::atan2(contact[1], contact[0]), to = angle - std::acos(s / b);
-    const double along = fraction * (hit + s * (to - from) + free_end());
-    if (along < hit) return between(start(), contact, along / hit);
-    if (along < hit + s * (to - from)) return polar(s, from + (along - hit) / s);
-    return between(polar(s, to), goal(), (along - hit - s * (to - from)) / free_end());
+    const double whole = greedy_length(), along = fraction * whole, left = whole - along, free = distance(start(), contact());
+    const double sight = angle - std::acos(s / b);
+    if (along < free) return between(start(), contact(), along / free);
+    if (left < free_end()) return between(goal(), polar(s, sight), left / free_end());
+    return polar(s, sight - greedy_arc() + (along - free) / s);
+  }
+  // Where the straight line to the goal meets the sphere.
+  Point contact() const {
+    const Point line = difference(goal(), start());
+    const double whole = distance(start(), goal()), p = dot(start(), line) / whole;
+    return between(start(), goal(), (-p - std::sqrt(p * p - a * a + s * s)) / whole);
+  }
+  double greedy_arc() const { return angle - std::acos(s / b) - std::atan2(contact()[1], contact()[0]); }
+
+  static double distance(const Point& from, const Point& to) {
+    const Point d = difference(to, from);
+    return std::sqrt(dot(d, d));
   }
   static Point between(const Point& from, const Point& to, double t) {
     return {from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]), from[2] + t * (to[2] - from[2])};
@@ -61,16 +70,18 @@ inline Point turned(const Point& x) {
   return {c * x[0] + s * cross[0] + along * k[0], c * x[1] + s * cross[1] + along * k[1], c * x[2] + s * cross[2] + along * k[2]};
 }
 
-// Nodes of two particles around `centre` of mass, equal masses, from a function of the part of the length.
+// Nodes of two particles around `centre` of mass, from a function of the part of the length. `mass` is that of the second over that
+// of the first.
 template <class Relative>
-Polyline two_particle_path(const ParticleLayout& layout, std::size_t nodes, const Point& centre, Relative relative) {
+Polyline two_particle_path(const ParticleLayout& layout, std::size_t nodes, const Point& centre, Relative relative,
+                           double mass = 1.0) {
   Polyline result;
   for (std::size_t k = 0; k < nodes; ++k) {
     const Point x = relative(static_cast<double>(k) / static_cast<double>(nodes - 1));
     std::vector<double> positions(6);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      positions[axis] = centre[axis] - 0.5 * x[axis];
-      positions[3 + axis] = centre[axis] + 0.5 * x[axis];
+      positions[axis] = centre[axis] - mass / (1.0 + mass) * x[axis];
+      positions[3 + axis] = centre[axis] + 1.0 / (1.0 + mass) * x[axis];
     }
     result.push_back(layout.to_slots(positions));
   }

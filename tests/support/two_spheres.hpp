@@ -52,15 +52,4 @@ inline std::vector<double> two_spheres(double r, double degrees) {
   return {x, y, z, -x, -y, -z};
 }
 
-// Length in 6-D of the greedy path between spheres of diameter 1 at distances `r` under this angle: straight to contact, around,
-// and straight from where the goal comes into sight (PHYSICS 6).
-inline double greedy_length(double r, double degrees) {
-  const double angle = degrees * std::numbers::pi / 180.0;
-  const double x = r * std::cos(angle) - r, y = r * std::sin(angle), whole = std::hypot(x, y);
-  const double middle = -r * x / whole,
-               free = middle - std::sqrt(middle * middle - r * r + 1.0);  // |(r, 0) + free (x, y)/whole| = 1
-  const double contact = std::atan2(free * y / whole, r + free * x / whole), sight = angle - std::acos(1.0 / r);
-  return (free + sight - contact + std::sqrt(r * r - 1.0)) / std::numbers::sqrt2;
-}
-
 }  // namespace lanescape::testing

@@ -13,6 +13,7 @@
 #include "memory_archive.hpp"
 #include "path/finder.hpp"
 #include "run/end_point_run.hpp"
+#include "two_sphere_path.hpp"
 
 namespace lanescape {
 namespace {
@@ -110,13 +111,8 @@ struct TwoSpheres {
     return made;
   }
   Slide slide(double largest_move) const { return {at(a, 0.0), at(b, theta), model(), largest_move}; }
-  // Straight to the contact, along the circle until the goal is in sight, straight to the goal; in kinematic length.
-  double greedy_length() const {
-    const double s = radius[0] + radius[1], straight = std::sqrt(a * a + b * b - 2.0 * a * b * std::cos(theta));
-    const double p = a * b * std::sin(theta) / straight;  // how near the straight line passes
-    const double to_contact = std::sqrt(a * a - p * p) - std::sqrt(s * s - p * p);
-    const double turned = std::acos(p / a) - std::acos(p / s);
-    const double relative = to_contact + s * (theta - turned - std::acos(s / b)) + std::sqrt(b * b - s * s);
+  double greedy_length() const {  // kinematic
+    const double relative = testing::TwoSpherePath{a, b, theta, radius[0] + radius[1]}.greedy_length();
     const double total = mass[0] + mass[1];
     return relative * std::sqrt(mass[0] * mass[1] / total / (0.5 * total));
   }
