@@ -9,11 +9,6 @@
 namespace lanescape::reference {
 namespace {
 
-double distance(const Point& a, const Point& b) {
-  const Point d = combine(b, -1.0, a);
-  return std::sqrt(dot(d, d));
-}
-
 double length_of(const std::vector<Point>& nodes) {
   double length = 0.0;
   for (std::size_t k = 0; k + 1 < nodes.size(); ++k) length += distance(nodes[k], nodes[k + 1]);

@@ -10,11 +10,6 @@ namespace {
 
 constexpr auto all_steps = std::numeric_limits<std::size_t>::max();
 
-double distance(const Point& a, const Point& b) {
-  const Point d = combine(b, -1.0, a);
-  return std::sqrt(dot(d, d));
-}
-
 /// The configurations of a path that are the first to come below |R_f - R_i| k / (count + 1), k = count ... 1.
 std::vector<Point> recorded(const SteppedPath& path, long count) {
   std::vector<Point> result;

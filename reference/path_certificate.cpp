@@ -36,7 +36,7 @@ std::vector<Point> bends(const std::vector<Point>& nodes) {
 
 PathCertificate begin_certificate(const std::vector<Point>& nodes) {
   PathCertificate result;
-  for (std::size_t k = 0; k + 1 < nodes.size(); ++k) result.length += norm(combine(nodes[k + 1], -1.0, nodes[k]));
+  for (std::size_t k = 0; k + 1 < nodes.size(); ++k) result.length += distance(nodes[k], nodes[k + 1]);
   result.multipliers.assign(nodes.size(), 0.0);
   return result;
 }

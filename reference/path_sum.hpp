@@ -22,6 +22,11 @@ inline Point combine(const Point& a, double factor, const Point& b) {
   return result;
 }
 
+inline double distance(const Point& a, const Point& b) {
+  const Point d = combine(b, -1.0, a);
+  return std::sqrt(dot(d, d));
+}
+
 /// (sum_j dr_j^2)^2 / sum_j dr_j^4 over particles j, [G] Eq. 4.17. Give it a unit vector, so that the powers do not underflow.
 inline double participation_number(const Point& step) {
   double second = 0.0;

@@ -85,10 +85,7 @@ class Exchanged {
 // The largest distance between nodes of the same number [sigma].
 double farthest(const std::vector<reference::Point>& a, const std::vector<reference::Point>& b) {
   double largest = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    const reference::Point d = reference::combine(a[k], -1.0, b[k]);
-    largest = std::max(largest, std::sqrt(reference::dot(d, d)));
-  }
+  for (std::size_t k = 0; k < a.size(); ++k) largest = std::max(largest, reference::distance(a[k], b[k]));
   return largest;
 }
 
@@ -103,7 +100,7 @@ class ShortenedPathOfALiquid : public ::testing::Test {
   }
   static double length_of(const std::vector<reference::Point>& nodes) {
     double length = 0.0;
-    for (std::size_t k = 1; k < nodes.size(); ++k) length += farthest({nodes[k - 1]}, {nodes[k]});
+    for (std::size_t k = 1; k < nodes.size(); ++k) length += reference::distance(nodes[k - 1], nodes[k]);
     return length;
   }
 

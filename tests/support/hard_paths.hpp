@@ -9,21 +9,14 @@
 
 #include "reference/event_driven.hpp"
 #include "reference/hard_geodesic.hpp"
+#include "reference/path_sum.hpp"
 
 /// Systems and lengths for tests of paths of hard spheres.
 namespace lanescape::reference {
 
-using Point = std::vector<double>;
-
 inline constexpr Vector kBox{40.0, 40.0, 40.0};
 inline constexpr double kAngle = 170.0 * std::numbers::pi / 180.0;
 inline const std::vector<double> kTwo{0.5, 0.5};
-
-inline double distance(const Point& a, const Point& b) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
-  return std::sqrt(sum);
-}
 
 inline double moved(const Point& a, const Point& b, std::size_t j) {
   return std::hypot(b[3 * j] - a[3 * j], b[3 * j + 1] - a[3 * j + 1], b[3 * j + 2] - a[3 * j + 2]);

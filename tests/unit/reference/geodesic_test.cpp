@@ -11,20 +11,13 @@
 #include <string>
 
 #include "reference/lennard_jones.hpp"
+#include "reference/path_sum.hpp"
 
 namespace {
 
 using namespace lanescape::reference;
 
-using Point = std::vector<double>;
-
 constexpr std::array kMethods{Method::contour, Method::escape};
-
-double distance(const Point& a, const Point& b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-  return std::sqrt(sum);
-}
 
 double flat_energy(const Point&) { return 0.0; }
 void flat_gradient(const Point&, Point& gradient) { std::fill(gradient.begin(), gradient.end(), 0.0); }
