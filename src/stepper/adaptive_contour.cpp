@@ -13,6 +13,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // Of the displacement before; 1/3 is that of the second backward differentiation formula, extrapolated.
 constexpr double momentum = 1.0 / 3.0;
 constexpr std::uint64_t max_returns = 8;  // along the gradient, of one step
+// Lengths, in the model's unit.
+constexpr double slack = 1e-6;      // distance by which the straight way to the goal may leave the allowed region, for rounding
+constexpr double fine_step = 1e-4;  // below it steps are not shortened for their error: gradients may jump
+constexpr double shortest_step = 1e-10, longest_step = 0.5;
 
 }  // namespace
 
@@ -85,10 +89,10 @@ bool AdaptiveContourStepper::hop(const PathPoint& at, AlignedArray& next) {
 bool AdaptiveContourStepper::go_straight(const PathPoint& at, double slope, double steepness, AlignedArray& next) {
   double length = std::min(direct_step_, at.distance);
   if (slope > 0.0) length = std::min(length, (level(steepness) - energy_) / slope);
-  while (length > options_.shortest_step * options_.unit) {
+  while (length > shortest_step * options_.unit) {
     const double shorter = try_straight(at, length, steepness, next);
     if (shorter == 0.0) {
-      direct_step_ = std::min(std::max(direct_step_, 2.0 * length), options_.longest_step * options_.unit);
+      direct_step_ = std::min(std::max(direct_step_, 2.0 * length), longest_step * options_.unit);
       return true;
     }
     length = direct_step_ = shorter;
@@ -100,7 +104,7 @@ bool AdaptiveContourStepper::go_straight(const PathPoint& at, double slope, doub
 double AdaptiveContourStepper::try_straight(const PathPoint& at, double length, double steepness, AlignedArray& next) {
   const VectorAlgebra& algebra = landscape_->algebra();
   const double part = length / at.distance;
-  const double limit = landscape_energy_ + (part == 1.0 ? options_.slack * options_.unit * steepness : 0.0);
+  const double limit = landscape_energy_ + (part == 1.0 ? slack * options_.unit * steepness : 0.0);
   algebra.axpy(next, at.position, part, at.to_goal);
   const double energy = evaluate(next);
   if (!std::isfinite(energy)) return 0.25 * length;
@@ -131,12 +135,12 @@ bool AdaptiveContourStepper::follow_contour(const PathPoint& at, AlignedArray& n
     return false;
   }
   double length = contour_step_;
-  while (length > options_.shortest_step * options_.unit) {
+  while (length > shortest_step * options_.unit) {
     const double shorter = try_contour(at, here.steepness, length, next);
     if (shorter == 0.0) return true;
     length = shorter;
   }
-  failure_ = fmt::format("no step along the contour longer than {} is allowed", options_.shortest_step * options_.unit);
+  failure_ = fmt::format("no step along the contour longer than {} is allowed", shortest_step * options_.unit);
   return false;
 }
 
@@ -151,13 +155,13 @@ double AdaptiveContourStepper::try_contour(const PathPoint& at, double steepness
   algebra.difference(chord_, next, at.position);
   const double ratio = options_.tolerance / relative_error(at, length);
   const double factor = std::clamp(0.9 * (length_before_ > 0.0 ? std::sqrt(ratio) : ratio), 0.2, 2.0);
-  const double fine = options_.fine_step * options_.unit;
+  const double fine = fine_step * options_.unit;
   if (!(ratio >= 1.0) && length > fine) return std::max(std::min(factor, 0.8) * length, fine);
   if (!segment_is_allowed(at, steepness)) return 0.5 * length;
   tangent_before_.swap(tangent_);
   moved_.swap(move_);
   length_before_ = length;
-  contour_step_ = std::clamp(factor * length, fine, options_.longest_step * options_.unit);
+  contour_step_ = std::clamp(factor * length, fine, longest_step * options_.unit);
   ++corrections_[std::min<std::size_t>(*returns, corrections_.size() - 1)];
   return 0.0;
 }

@@ -13,10 +13,10 @@
 namespace lanescape {
 
 // The limit of the contour method ([C] Eqs. 11-15) for infinitely short steps, in few long ones. Where the straight way to the goal
-// is allowed, direct steps follow it. Elsewhere the path follows dR/ds = P d/|P d| along V = E_L, P = 1 - n n^T, by the extrapolated
-// second backward differentiation formula for steps of any length. Stiff pairs, which pull the direction back within a hundredth of
-// sigma, limit explicit methods; this one allows steps a third longer than that of Adams and Bashforth. The length of a step
-// follows from how far the direction at its end is from the extrapolated one.
+// is allowed, direct steps follow it. Elsewhere the path follows dR/ds = P d/|P d| along V = E_L, P = 1 - n n^T, by the
+// extrapolated second backward differentiation formula for steps of any length. Stiff pairs, which pull the direction back within a
+// hundredth of sigma, limit explicit methods; this one allows steps a third longer than that of Adams and Bashforth. The length of
+// a step follows from how far the direction at its end is from the extrapolated one.
 //
 // Most steps take one evaluation. The path keeps a small distance, `margin`, from the boundary, so that errors of second order
 // leave it allowed; a point above E_L is moved back along the gradient. V along each segment is estimated from its ends
@@ -27,10 +27,6 @@ class AdaptiveContourStepper {
     double unit = 1.0;        // the model's unit of length, which the lengths below are in [sigma]
     double tolerance = 0.02;  // error of a step along the contour over its length
     double margin = 2e-4;     // distance to the boundary that steps along it aim for
-    double slack = 1e-6;      // distance by which the straight way to the goal may leave the allowed region, for rounding
-    double fine_step = 1e-4;  // below it steps are not shortened for their error: gradients may jump
-    double shortest_step = 1e-10;
-    double longest_step = 0.5;
   };
 
   AdaptiveContourStepper(SoftLandscape& landscape, double landscape_energy, const Options& options);
