@@ -174,7 +174,6 @@ bool ContactProjection::solve_face() {
   double squared = begin_face();
   const double target = 0.1 * options_.tolerance * options_.tolerance;
   for (std::size_t iteration = 0; iteration < 2 * face_.size() + 10 && squared > target; ++iteration) {
-    ++iterations_;
     const double length = length_to_minimum(squared), allowed = allowed_length(length);
     if (std::isinf(allowed)) return false;
     double next_squared = 0.0;

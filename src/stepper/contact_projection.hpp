@@ -34,8 +34,7 @@ class ContactProjection {
   // sphere with itself is ignored. Vectors are all x, all y, all z.
   bool project(std::span<const PairGap> pairs, AlignedArray& displacement, std::vector<double>& multipliers);
 
-  std::uint64_t rounds() const { return rounds_; }          // so far
-  std::uint64_t iterations() const { return iterations_; }  // of conjugate gradients, so far
+  std::uint64_t rounds() const { return rounds_; }  // so far
 
  private:
   // A constraint g + a.(u_j - u_i) >= 0 with a = n scaled so that the diagonal of A M^-1 A^T is 1.
@@ -79,7 +78,7 @@ class ContactProjection {
   std::vector<std::uint32_t> in_face_;          // per row
   std::vector<Entry> face_entries_;
   std::vector<double> at_face_, gaps_, direction_, image_;
-  std::uint64_t rounds_ = 0, iterations_ = 0;
+  std::uint64_t rounds_ = 0;
 };
 
 }  // namespace lanescape
