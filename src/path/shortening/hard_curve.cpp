@@ -29,7 +29,6 @@ void HardCurve::allocate(Polyline nodes) {
   nodes_ = std::make_unique<HardNodes>(HardSpherePath{box_, layout_, radii_, metric_, isa_}, count,
                                        HardNodes::Options{reach * options_.length_unit, options_.length_unit, options_.threads});
   now_ = std::move(nodes);
-  moved_ = now_;
   tight_iterations_ = 0;
   tensions_.assign(count - 1, 1.0);
   for (Polyline* field : {&rest_, &conditioned_, &direction_, &applied_, &step_})
@@ -39,6 +38,10 @@ void HardCurve::allocate(Polyline nodes) {
 void HardCurve::begin(Polyline nodes) {
   allocate(std::move(nodes));
   restore();
+  follow();
+}
+
+void HardCurve::follow() {
   nodes_->follow(now_);
   moved_ = now_;
 }
@@ -53,8 +56,7 @@ bool HardCurve::tighten() {
                                                               : HardNodes::Planes::of_segments);
   if (nodes_->planes() == HardNodes::Planes::of_segments) restore();
   tight_iterations_ = 0;
-  nodes_->follow(now_);
-  moved_ = now_;
+  follow();
   return true;
 }
 
@@ -200,9 +202,7 @@ void HardCurve::exchange(Archive& archive) {
   archive.field("tight_iterations", tight_iterations_);
   archive.field("earlier_evaluations", earlier_evaluations_);
   nodes_->exchange(archive);
-  if (!archive.reading()) return;
-  moved_ = now_;
-  nodes_->follow(now_);
+  if (archive.reading()) follow();
 }
 
 }  // namespace lanescape

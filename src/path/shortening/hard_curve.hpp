@@ -35,6 +35,7 @@ class HardCurve final : public CurveRelaxation {
 
  private:
   void allocate(Polyline nodes);
+  void follow();
   void set_tensions();
   void sweep(std::size_t colour);
   void find_step();
