@@ -9,13 +9,10 @@ ContactLandscape::ContactLandscape(const Box& box, const ParticleLayout& layout,
                                    KinematicMetric metric, Isa isa, double reach, double skin)
     : algebra_(kernel_table(isa)),
       metric_(std::move(metric)),
-      positions_(layout.dimension(), 1.0),
+      positions_(layout.dimension()),
+      inverse_masses_(metric_.inverse_masses(layout)),
       spheres_(box, layout, radii, kernel_table(isa)),
-      list_(spheres_, reach, skin) {
-  metric_.to_positions(positions_);  // 1/sqrt(m/<m>)
-  inverse_masses_.assign(positions_.begin(), positions_.begin() + static_cast<std::ptrdiff_t>(layout.slots()));
-  for (double& inverse : inverse_masses_) inverse *= inverse;
-}
+      list_(spheres_, reach, skin) {}
 
 const AlignedArray& ContactLandscape::positions(const AlignedArray& q) {
   if (metric_.is_euclidean()) return q;

@@ -33,6 +33,14 @@ void KinematicMetric::to_positions(AlignedArray& q) const {
   for (std::size_t k = 0; k < scale_.size(); ++k) q[k] /= scale_[k];
 }
 
+AlignedArray KinematicMetric::inverse_masses(const ParticleLayout& layout) const {
+  AlignedArray scale(layout.dimension(), 1.0);
+  to_positions(scale);
+  scale.resize(layout.slots());
+  for (double& x : scale) x *= x;
+  return scale;
+}
+
 KinematicLandscape::KinematicLandscape(std::unique_ptr<SoftLandscape> inner, KinematicMetric metric)
     : inner_(std::move(inner)), metric_(std::move(metric)) {}
 

@@ -22,6 +22,7 @@ class KinematicMetric {
   AlignedArray coordinates(const ParticleLayout& layout, std::span<const double> positions) const;
   // Turns dV/dr into dV/dq.
   void gradient_to_kinematic(AlignedArray& gradient) const { to_positions(gradient); }
+  AlignedArray inverse_masses(const ParticleLayout& layout) const;  // <m>/m_j per slot, 1 for padding
 
  private:
   AlignedArray scale_;  // sqrt(m_j / <m>) per coordinate, 1 for padding

@@ -108,11 +108,7 @@ class HardCheck {
   }
 
   double gap_at(const AlignedArray& node, const Approach& contact) const {
-    const std::size_t slots = node.size() / 3;
-    Point d;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      d[axis] = node[axis * slots + static_cast<std::size_t>(contact.second)] -
-                node[axis * slots + static_cast<std::size_t>(contact.first)] + contact.image[axis] * spheres_.box().length[axis];
+    const Point d = separation_at(node, contact, spheres_.box());
     return std::sqrt(dot(d, d)) -
            (spheres_.radii()[static_cast<std::size_t>(contact.first)] + spheres_.radii()[static_cast<std::size_t>(contact.second)]);
   }

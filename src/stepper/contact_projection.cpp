@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/slot_point.hpp"
+
 namespace lanescape {
 namespace {
 
@@ -44,7 +46,7 @@ bool ContactProjection::add_violated(std::span<const PairGap> pairs) {
 
 void ContactProjection::collect(std::span<const PairGap> pairs, const AlignedArray& wish, const std::vector<double>& multipliers) {
   const std::size_t slots = wish_.size();
-  for (std::size_t i = 0; i < slots; ++i) wish_[i] = {wish[i], wish[slots + i], wish[2 * slots + i]};
+  for (std::size_t i = 0; i < slots; ++i) wish_[i] = slot_point(wish, i);
   for (auto* array : {&lambda_, &at_wish_}) array->clear();
   rows_.clear();
   listed_.assign(pairs.size(), 0);

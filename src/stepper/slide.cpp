@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/slot_point.hpp"
+
 namespace lanescape {
 namespace {
 
@@ -14,11 +16,6 @@ constexpr double turn = 0.1;             // of the pull, tangent of the angle
 
 std::uint64_t key(const PairGap& pair) {
   return static_cast<std::uint64_t>(pair.first) << 32 | static_cast<std::uint64_t>(pair.second);
-}
-
-Point slot(const AlignedArray& array, std::size_t i) {
-  const std::size_t slots = array.size() / 3;
-  return {array[i], array[slots + i], array[2 * slots + i]};
 }
 
 }  // namespace
@@ -41,10 +38,10 @@ void SlideStepper::set_pull(const PathPoint& at) {
   if (sharpened_ == 0) return;
   const std::size_t slots = zero_.size() / 3;
   double longest = 0.0;
-  for (std::size_t j = 0; j < slots; ++j) longest = std::max(longest, dot(slot(at.to_goal, j), slot(at.to_goal, j)));
+  for (std::size_t j = 0; j < slots; ++j) longest = std::max(longest, dot(slot_point(at.to_goal, j), slot_point(at.to_goal, j)));
   const double power = static_cast<double>((std::uint64_t{1} << sharpened_) - 1);  // (p - 2)/2
   for (std::size_t j = 0; j < slots; ++j) {
-    const Point d = slot(at.to_goal, j);
+    const Point d = slot_point(at.to_goal, j);
     const double weight = std::pow(dot(d, d) / longest, power);
     for (std::size_t axis = 0; axis < 3; ++axis) way_[axis * slots + j] = weight * d[axis];
   }
@@ -57,7 +54,7 @@ void SlideStepper::set_pull(const PathPoint& at) {
 void SlideStepper::turn_pull() {
   const std::size_t slots = zero_.size() / 3;
   for (std::size_t j = 0; j < slots; ++j) {
-    const Point w = slot(way_, j);
+    const Point w = slot_point(way_, j);
     const std::size_t least = static_cast<std::size_t>(
         std::min_element(w.begin(), w.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }) - w.begin());
     const std::size_t next = (least + 1) % 3, last = (least + 2) % 3;
@@ -123,7 +120,7 @@ double SlideStepper::limit_displacement() {
   double squared = 0.0;
   moved_ = 0;
   for (std::size_t j = 0; j < zero_.size() / 3; ++j) {
-    const Point u = slot(displacement_, j);
+    const Point u = slot_point(displacement_, j);
     squared = std::max(squared, dot(u, u));
     if (dot(u, u) > 0.0) ++moved_;
   }
@@ -136,8 +133,8 @@ double SlideStepper::limit_displacement() {
 double SlideStepper::deepest_overlap(const std::vector<PairGap>& pairs, double share) const {
   double smallest = 0.0;
   for (const PairGap& pair : pairs) {
-    const Point u = difference(slot(displacement_, static_cast<std::size_t>(pair.second)),
-                               slot(displacement_, static_cast<std::size_t>(pair.first)));
+    const Point u = difference(slot_point(displacement_, static_cast<std::size_t>(pair.second)),
+                               slot_point(displacement_, static_cast<std::size_t>(pair.first)));
     smallest = std::min({smallest, pair.gap, pair.gap + share * dot(pair.normal, u)});
   }
   return -smallest;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/slot_point.hpp"
+
 namespace lanescape {
 namespace {
 
@@ -13,7 +15,7 @@ double closest_fraction(const Point& separation, const Point& move) {
   return squared > 0.0 ? std::clamp(-dot(separation, move) / squared, 0.0, 1.0) : 0.5;
 }
 
-Point separation_at(const Point& separation, const Point& move, double fraction) {
+Point moved_separation(const Point& separation, const Point& move, double fraction) {
   Point result;
   for (std::size_t axis = 0; axis < 3; ++axis) result[axis] = separation[axis] + fraction * move[axis];
   return result;
@@ -29,13 +31,20 @@ struct ImageRange {
 
 }  // namespace
 
+Point separation_at(const AlignedArray& positions, const Approach& pair, const Box& box) {
+  Point d = difference(slot_point(positions, static_cast<std::size_t>(pair.second)),
+                       slot_point(positions, static_cast<std::size_t>(pair.first)));
+  for (std::size_t axis = 0; axis < 3; ++axis) d[axis] += pair.image[axis] * box.length[axis];
+  return d;
+}
+
 const std::vector<Approach>& SegmentGaps::below(const AlignedArray& from, const AlignedArray& to, double reach) {
   const std::size_t slots = from.size() / 3;
   middle_.resize(from.size());
   double longest = 0.0;  // square of the longest move of a particle
   for (std::size_t k = 0; k < from.size(); ++k) middle_[k] = from[k] + 0.5 * (to[k] - from[k]);
   for (std::size_t k = 0; k < slots; ++k) {
-    const Point move{to[k] - from[k], to[slots + k] - from[slots + k], to[2 * slots + k] - from[2 * slots + k]};
+    const Point move = difference(slot_point(to, k), slot_point(from, k));
     longest = std::max(longest, dot(move, move));
   }
   approaches_.clear();
@@ -66,7 +75,7 @@ void SegmentGaps::add_images(const kernels::SpherePair& pair, const AlignedArray
       for (std::int32_t nz = z.first; nz <= z.last; ++nz) {
         const Point separation{start[0] + nx * edges[0], start[1] + ny * edges[1], start[2] + nz * edges[2]};
         const double fraction = closest_fraction(separation, move);
-        const Point nearest = separation_at(separation, move, fraction);
+        const Point nearest = moved_separation(separation, move, fraction);
         const double gap = std::sqrt(dot(nearest, nearest)) - contact;
         if (gap < reach) approaches_.push_back({pair.first, pair.second, {nx, ny, nz}, fraction, gap, nearest});
       }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/aligned_array.hpp"
+#include "core/box.hpp"
 #include "core/point.hpp"
 #include "interaction/sphere/hard_sphere_overlap.hpp"
 
@@ -18,6 +19,9 @@ struct Approach {
   double gap;                         // r_ij - s_ij there [sigma]
   Point separation;                   // r_second - r_first there, of this image [sigma]
 };
+
+// r_second - r_first at these positions, of the same image.
+Point separation_at(const AlignedArray& positions, const Approach& pair, const Box& box);
 
 // Closest approaches along straight moves from one configuration to another: linear relative motion, solved exactly for all pairs
 // and all periodic images, even of moves longer than the box. The overlap object is its scratch memory.

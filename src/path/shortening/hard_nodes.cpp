@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/float_environment.hpp"
+#include "core/slot_point.hpp"
 
 namespace lanescape {
 namespace {
@@ -17,18 +18,6 @@ constexpr double margin = 2e-11, tolerance = 1e-11;
 constexpr double contact_gap = 5e-7;   // of pairs that touch: half of what the certificate takes for a contact
 constexpr double loose_gap = 2e-4;     // of pairs that touch while planes are those of nodes
 constexpr double independence = 1e-9;  // added to the products of unit normals, which may depend on each other
-
-Point slot(const AlignedArray& array, std::size_t i) {
-  const std::size_t slots = array.size() / 3;
-  return {array[i], array[slots + i], array[2 * slots + i]};
-}
-
-Point separation(const AlignedArray& positions, const Approach& pair, const Box& box) {
-  Point d =
-      difference(slot(positions, static_cast<std::size_t>(pair.second)), slot(positions, static_cast<std::size_t>(pair.first)));
-  for (std::size_t axis = 0; axis < 3; ++axis) d[axis] += pair.image[axis] * box.length[axis];
-  return d;
-}
 
 // Of a pair, an image, and the segment before (0) or behind (1) the node.
 std::uint64_t key(const Approach& pair, std::uint64_t side) {
@@ -67,8 +56,7 @@ HardNodes::HardNodes(const HardSpherePath& path, std::size_t nodes, const Option
       corridors_(nodes),
       faces_(nodes) {
   metric_.to_positions(scale_);
-  AlignedArray inverse_masses(scale_.begin(), scale_.begin() + static_cast<std::ptrdiff_t>(path.layout.slots()));
-  for (double& inverse : inverse_masses) inverse *= inverse;
+  const AlignedArray inverse_masses = metric_.inverse_masses(path.layout);
   for (std::size_t block = 0; block < NodeBlocks::count; ++block)
     scratch_.push_back(std::make_unique<Block>(path, inverse_masses, options.unit));
 }
@@ -90,7 +78,7 @@ void HardNodes::turn_to_end(std::vector<Approach>& approaches, const AlignedArra
   const AlignedArray& radii = block.spheres.radii();
   for (Approach& pair : approaches) {
     const double contact = radii[static_cast<std::size_t>(pair.first)] + radii[static_cast<std::size_t>(pair.second)];
-    const Point d = separation(end, pair, box_);
+    const Point d = separation_at(end, pair, box_);
     const double nearest = std::sqrt(dot(pair.separation, pair.separation)), r = std::sqrt(dot(d, d));
     if (!(nearest > 0.0) || dot(d, pair.separation) >= contact * nearest) continue;
     const Point e = scaled(1.0 / r, d), n = scaled(1.0 / nearest, pair.separation);
@@ -109,7 +97,7 @@ void HardNodes::add_planes(Corridor& corridor, const std::vector<Approach>& appr
     const double length = std::sqrt(dot(pair.separation, pair.separation));
     const Point normal = length > 0.0 ? scaled(1.0 / length, pair.separation) : Point{1.0, 0.0, 0.0};
     const double contact = radii[static_cast<std::size_t>(pair.first)] + radii[static_cast<std::size_t>(pair.second)];
-    const double gap = dot(normal, separation(at, pair, box_)) - contact;
+    const double gap = dot(normal, separation_at(at, pair, box_)) - contact;
     if (gap >= options_.reach || pair.first == pair.second) continue;
     corridor.planes.push_back({pair.first, pair.second, gap, normal});
     corridor.keys.push_back(key(pair, side));
@@ -133,7 +121,7 @@ void HardNodes::add_node_planes(Corridor& corridor, const std::vector<Approach>&
       continue;
     }
     corridor.both.emplace_back(is_before ? pair->gap : far, is_before ? far : pair->gap);
-    const Point d = separation(at, *pair, box_);
+    const Point d = separation_at(at, *pair, box_);
     corridor.planes.push_back({pair->first, pair->second, pair->gap, scaled(1.0 / std::sqrt(dot(d, d)), d)});
     corridor.keys.push_back(number);
   }
@@ -232,7 +220,7 @@ bool HardNodes::restore(Polyline& nodes) {
 double HardNodes::most_share(const AlignedArray& displacement) const {
   double squared = 0.0;
   for (std::size_t i = 0; i < displacement.size() / 3; ++i)
-    squared = std::max(squared, dot(slot(displacement, i), slot(displacement, i)));
+    squared = std::max(squared, dot(slot_point(displacement, i), slot_point(displacement, i)));
   const double most = 0.5 * options_.reach;
   return squared > most * most ? most / std::sqrt(squared) : 1.0;
 }
@@ -308,7 +296,7 @@ void HardNodes::keep_to_face(std::size_t k, AlignedArray& field) const {
   Eigen::VectorXd parts(static_cast<Eigen::Index>(face.rows.size()));
   for (std::size_t c = 0; c < face.rows.size(); ++c)
     parts[static_cast<Eigen::Index>(c)] =
-        dot(face.rows[c].at_i, slot(field, face.rows[c].i)) + dot(face.rows[c].at_j, slot(field, face.rows[c].j));
+        dot(face.rows[c].at_i, slot_point(field, face.rows[c].i)) + dot(face.rows[c].at_j, slot_point(field, face.rows[c].j));
   const Eigen::VectorXd weights = face.products.solve(parts);
   for (std::size_t c = 0; c < face.rows.size(); ++c)
     for (std::size_t axis = 0; axis < 3; ++axis) {
