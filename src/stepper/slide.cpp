@@ -179,9 +179,7 @@ void SlideStepper::exchange(Archive& archive, const AlignedArray&) {
   archive.field("sharpened", sharpened_);
   archive.field("sharp_steps", sharp_steps_);
   archive.field("stuck_distance", stuck_distance_);
-  std::uint64_t moved = moved_;  // the trace has it of the last step
-  archive.field("moved", moved);
-  moved_ = moved;
+  archive.field("moved", moved_);  // the trace has it of the last step
   archive.field("evaluations", evaluations_);
   archive.field("corrections", corrections_);
   archive.field("sharpness", sharpness_);

@@ -74,7 +74,7 @@ class SlideStepper {
   std::vector<std::pair<std::uint64_t, double>> acting_;  // the same by spheres, for another list
   std::uint64_t sharpened_ = 0, sharp_steps_ = 0;         // log2(p/2), and steps with it
   double stuck_distance_ = 0.0;
-  std::size_t moved_ = 0;
+  std::uint64_t moved_ = 0;
   double violation_ = 0.0;
   std::uint64_t evaluations_ = 0;
   std::vector<std::uint64_t> corrections_;
