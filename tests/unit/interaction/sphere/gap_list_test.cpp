@@ -50,7 +50,7 @@ std::vector<Key> within(const std::vector<PairGap>& gaps, double reach) {
   return keys;
 }
 
-// All images within three boxes.
+// All images within four boxes.
 std::vector<Key> brute_force(const Cloud& cloud, double reach) {
   std::vector<Key> keys;
   for (std::size_t i = 0; i < cloud.radii.size(); ++i)
