@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "api/access.hpp"
-#include "api/host_arrays.hpp"
 #include "configuration/model_traits.hpp"
 #include "core/error.hpp"
 
@@ -16,10 +15,14 @@ const PairModel& pair_model(const Model& model, const char* user) {
                               model.has_states() ? "StateSystem is for sites in states" : "HardSpheres is for hard spheres"));
 }
 
+void check_diameters(const std::string& model, bool has_diameters, std::size_t given, std::size_t particles) {
+  if (!has_diameters && given != 0) throw_bad_input(fmt::format("model {} has no diameters of particles: none are allowed", model));
+  if (has_diameters && given != particles)
+    throw_bad_input(fmt::format("{} diameters were given for {} particles: one for each is needed", given, particles));
+}
+
 const std::vector<double>& checked_diameters(const PairModel& model, const std::vector<double>& given, std::size_t particles) {
-  if (model.form->has_diameters) check_room("diameters", given.size(), particles);
-  if (!model.form->has_diameters && !given.empty())
-    throw_bad_input(fmt::format("model {} has no diameters of particles: none are allowed", model.name));
+  check_diameters(model.name, model.form->has_diameters, given.size(), particles);
   return given;
 }
 

@@ -1,12 +1,11 @@
 #include "api/path_problem.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
 #include "api/access.hpp"
 #include "api/host_arrays.hpp"
+#include "api/pair_models.hpp"
 #include "configuration/model_traits.hpp"
 #include "core/coordinate_checks.hpp"
 #include "core/error.hpp"
@@ -68,12 +67,8 @@ Configuration particles_of(const Model& model, std::span<const int> species, con
   check_species(particles.species, model.species_count());
   if (const auto* spheres = std::get_if<HardSphereModel>(&detail::Access::of(model)))
     particles.radii = spheres->radii_of(particles.species);
-  if (!diameters.empty() && !model.has_diameters() && !model.is_hard())
-    throw_bad_input(fmt::format("model {} has no diameters of particles: none are allowed", model.name()));
-  if (!model.has_diameters()) return particles;
-  if (diameters.size() != species.size())
-    throw_bad_input(
-        fmt::format("{} diameters were given for {} particles: one for each is needed", diameters.size(), species.size()));
+  if (model.is_hard()) return particles;
+  check_diameters(model.name(), model.has_diameters(), diameters.size(), species.size());
   particles.diameters.assign(diameters.begin(), diameters.end());
   return particles;
 }

@@ -256,7 +256,7 @@ TEST(Potential, RefusesWhatItDoesNotKnow) {
       refusal([] { Potential(Model::named("hard-sphere"), std::vector<int>{0}, cube); }),
       "model hard-sphere is made of hard spheres: a Potential needs a model of a pair potential; HardSpheres is for hard spheres");
   EXPECT_EQ(refusal([] { Potential(Model::named("polydisperse"), std::vector<int>{0, 0}, cube, {.diameters = {1.0}}); }),
-            "room for 1 diameters was given: 2 are needed");
+            "1 diameters were given for 2 particles: one for each is needed");
 }
 
 TEST(Potential, NamesTheCoordinateThatIsNotFinite) {
