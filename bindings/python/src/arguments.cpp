@@ -197,6 +197,11 @@ void check_state(const nb::tuple& kept, std::size_t members) {
 Array new_array(std::span<const double> values, std::vector<std::size_t> shape) { return copied(values, std::move(shape)); }
 Array new_array(std::span<const std::int64_t> values, std::vector<std::size_t> shape) { return copied(values, std::move(shape)); }
 
+Array new_list(std::span<const double> values) { return copied(values, {values.size()}); }
+Array new_list(std::span<const std::int64_t> values) { return copied(values, {values.size()}); }
+Array new_vectors(std::span<const double> values) { return copied(values, {values.size() / 3, 3}); }
+nb::object new_list_or_none(std::span<const double> values) { return values.empty() ? nb::object(nb::none()) : new_list(values); }
+
 nb::object new_result(const char* name, const nb::dict& members) {
   return nb::module_::import_("lanescape.results").attr(name)(**members);
 }

@@ -3,6 +3,7 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -30,32 +31,25 @@ struct ArrayLike : nb::handle {
   ArrayLike(const nb::detail::api<Derived>& given) : nb::handle(given.derived().ptr()) {}
 };
 
-// Objects of classes that Python defines: names in signatures. One may be null.
+// An object of a class that Python defines, so that signatures name the class. It may be null.
 inline bool of_any_class(PyObject*) { return true; }
-class Array : public nb::object {
-  NB_OBJECT_DEFAULT(Array, nb::object, "numpy.ndarray", of_any_class)
+template <std::size_t size>
+struct ClassName {
+  constexpr ClassName(const char (&name)[size]) { std::copy_n(name, size, text); }
+  char text[size]{};
 };
-class EvaluationObject : public nb::object {
-  NB_OBJECT_DEFAULT(EvaluationObject, nb::object, "lanescape.results.Evaluation", of_any_class)
+template <ClassName name>
+class PythonObject : public nb::object {
+  NB_OBJECT_DEFAULT(PythonObject, nb::object, name.text, of_any_class)
 };
-class StartObject : public nb::object {
-  NB_OBJECT_DEFAULT(StartObject, nb::object, "lanescape.results.Start", of_any_class)
-};
-class EndPointsObject : public nb::object {
-  NB_OBJECT_DEFAULT(EndPointsObject, nb::object, "lanescape.results.EndPoints", of_any_class)
-};
-class PathObject : public nb::object {
-  NB_OBJECT_DEFAULT(PathObject, nb::object, "lanescape.results.Path", of_any_class)
-};
-class ShortPathObject : public nb::object {
-  NB_OBJECT_DEFAULT(ShortPathObject, nb::object, "lanescape.results.ShortPath", of_any_class)
-};
-class PathCertificateObject : public nb::object {
-  NB_OBJECT_DEFAULT(PathCertificateObject, nb::object, "lanescape.results.PathCertificate", of_any_class)
-};
-class InsertedParticleObject : public nb::object {
-  NB_OBJECT_DEFAULT(InsertedParticleObject, nb::object, "lanescape.results.InsertedParticle", of_any_class)
-};
+using Array = PythonObject<"numpy.ndarray">;
+using EvaluationObject = PythonObject<"lanescape.results.Evaluation">;
+using StartObject = PythonObject<"lanescape.results.Start">;
+using EndPointsObject = PythonObject<"lanescape.results.EndPoints">;
+using PathObject = PythonObject<"lanescape.results.Path">;
+using ShortPathObject = PythonObject<"lanescape.results.ShortPath">;
+using PathCertificateObject = PythonObject<"lanescape.results.PathCertificate">;
+using InsertedParticleObject = PythonObject<"lanescape.results.InsertedParticle">;
 
 // Numbers of a caller. Arrays of float64 in C order are taken as they are; others are converted once. TypeError for what holds no
 // real numbers, Error(bad_input) for another shape. `what` names the argument in messages.
@@ -112,9 +106,14 @@ Progress progress_of(nb::object given);
 // TypeError unless the state of a pickle has that many members, which Python's tuples do not check.
 void check_state(const nb::tuple& kept, std::size_t members);
 
-// Copies in arrays of numpy's.
+// Copies in arrays of numpy's, of a shape, (N,), and (N, 3).
 Array new_array(std::span<const double> values, std::vector<std::size_t> shape);
 Array new_array(std::span<const std::int64_t> values, std::vector<std::size_t> shape);
+Array new_list(std::span<const double> values);
+Array new_list(std::span<const std::int64_t> values);
+Array new_vectors(std::span<const double> values);
+// None for no numbers.
+nb::object new_list_or_none(std::span<const double> values);
 // An object of the class `name` of lanescape.results.
 nb::object new_result(const char* name, const nb::dict& members);
 template <class Object>

@@ -29,7 +29,7 @@ struct BoundDynamics {
 
 Array vectors(BoundDynamics& self, std::vector<double> (MolecularDynamics::*member)() const) {
   const std::vector<double> values = unlocked(self.lock, [&] { return (self.dynamics.*member)(); });
-  return new_array(std::span<const double>(values), {values.size() / 3, 3});
+  return new_vectors(values);
 }
 
 void make(BoundDynamics* self, nb::handle landscape, ArrayLike positions, double time_step, ArrayLike masses) {
@@ -47,10 +47,8 @@ void run(BoundDynamics& self, std::uint64_t steps) {
 
 nb::tuple state(BoundDynamics& self) {
   const std::string bytes = unlocked(self.lock, [&] { return self.dynamics.state(); });
-  const nb::object masses =
-      self.masses.empty() ? nb::object(nb::none()) : new_array(std::span<const double>(self.masses), {self.masses.size()});
-  return nb::make_tuple(self.held.given, vectors(self, &MolecularDynamics::positions), self.time_step, masses,
-                        nb::bytes(bytes.data(), bytes.size()));
+  return nb::make_tuple(self.held.given, vectors(self, &MolecularDynamics::positions), self.time_step,
+                        new_list_or_none(self.masses), nb::bytes(bytes.data(), bytes.size()));
 }
 
 void restore(BoundDynamics* self, const nb::tuple& kept) {

@@ -11,8 +11,6 @@
 namespace lanescape::python {
 namespace {
 
-Array vectors(const std::vector<double>& values) { return new_array(std::span<const double>(values), {values.size() / 3, 3}); }
-
 StartObject start(const Model& model, std::size_t particles, double density, std::uint64_t seed) {
   Start made;
   {
@@ -21,11 +19,10 @@ StartObject start(const Model& model, std::size_t particles, double density, std
   }
   const std::vector<std::int64_t> species(made.species.begin(), made.species.end());
   nb::dict members;
-  members["species"] = new_array(std::span<const std::int64_t>(species), {species.size()});
-  members["positions"] = vectors(made.positions);
-  members["box"] = new_array(std::span<const double>(made.box), {3});
-  members["diameters"] =
-      made.diameters.empty() ? nb::object(nb::none()) : new_array(std::span<const double>(made.diameters), {made.diameters.size()});
+  members["species"] = new_list(species);
+  members["positions"] = new_vectors(made.positions);
+  members["box"] = new_list(made.box);
+  members["diameters"] = new_list_or_none(made.diameters);
   return new_result<StartObject>(members);
 }
 
@@ -47,8 +44,8 @@ nb::typed<nb::list, EndPointsObject> end_points(const Model& model, nb::handle s
   nb::typed<nb::list, EndPointsObject> results;
   for (const EndPoints& pair : made) {
     nb::dict members;
-    members["start"] = vectors(pair.start);
-    members["finish"] = vectors(pair.finish);
+    members["start"] = new_vectors(pair.start);
+    members["finish"] = new_vectors(pair.finish);
     members["distance"] = pair.distance;
     members["steps"] = pair.steps;
     members["time"] = pair.time;

@@ -62,7 +62,7 @@ EvaluationObject evaluate(Bound& system, ArrayLike positions, nb::handle forces,
   const Evaluation e = unlocked(system.lock, [&] { return system.object.evaluate(given.values(), outputs); });
   members["energy"] = e.energy;
   members["virial"] = stress || wanted(forces) ? nb::object(nb::float_(e.virial)) : nb::none();
-  members["stress"] = stress ? nb::object(new_array(std::span<const double>(e.stress), {6})) : nb::object(nb::none());
+  members["stress"] = stress ? nb::object(new_list(e.stress)) : nb::object(nb::none());
   return new_result<EvaluationObject>(members);
 }
 

@@ -37,7 +37,7 @@ void make(BoundEvents* self, ArrayLike radii, ArrayLike positions, ArrayLike box
 
 Array vectors(BoundEvents& self, std::vector<double> (EventDrivenDynamics::*member)() const) {
   const std::vector<double> values = unlocked(self.lock, [&] { return (self.object.*member)(); });
-  return new_array(std::span<const double>(values), {values.size() / 3, 3});
+  return new_vectors(values);
 }
 
 // In pieces, so that Ctrl-C is seen.
@@ -52,10 +52,8 @@ void collide(BoundEvents& self, std::uint64_t collisions) {
 nb::tuple state(BoundEvents& self) {
   const std::string bytes = unlocked(self.lock, [&] { return self.object.state(); });
   const auto& [radii, masses, positions, box, instruction_set] = self.parameters;
-  const nb::object weights = masses.empty() ? nb::object(nb::none()) : new_array(std::span<const double>(masses), {masses.size()});
-  return nb::make_tuple(
-      new_array(std::span<const double>(radii), {radii.size()}), new_array(std::span<const double>(positions), {radii.size(), 3}),
-      new_array(std::span<const double>(box), {3}), weights, instruction_set, nb::bytes(bytes.data(), bytes.size()));
+  return nb::make_tuple(new_list(radii), new_vectors(positions), new_list(box), new_list_or_none(masses), instruction_set,
+                        nb::bytes(bytes.data(), bytes.size()));
 }
 
 void restore(BoundEvents* self, const nb::tuple& kept) {

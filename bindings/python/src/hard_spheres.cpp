@@ -46,8 +46,7 @@ nb::typed<nb::tuple, Array, Array> overlaps(BoundSpheres& self, ArrayLike positi
       gaps.push_back(overlap.gap);
     }
   });
-  return nb::make_tuple(new_array(std::span<const std::int64_t>(pairs), {gaps.size(), 2}),
-                        new_array(std::span<const double>(gaps), {gaps.size()}));
+  return nb::make_tuple(new_array(std::span<const std::int64_t>(pairs), {gaps.size(), 2}), new_list(gaps));
 }
 
 double smallest_gap(BoundSpheres& self, ArrayLike positions) {
@@ -57,8 +56,7 @@ double smallest_gap(BoundSpheres& self, ArrayLike positions) {
 
 nb::tuple state(const BoundSpheres& self) {
   const auto& [radii, box, instruction_set, skin] = self.parameters;
-  return nb::make_tuple(new_array(std::span<const double>(radii), {radii.size()}), new_array(std::span<const double>(box), {3}),
-                        instruction_set, skin);
+  return nb::make_tuple(new_list(radii), new_list(box), instruction_set, skin);
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ nb::typed<nb::list, InsertedParticleObject> found_by(BoundInserter& self, double
   for (const InsertedParticle& particle : found) {
     nb::dict members;
     members["found"] = particle.found;
-    members["position"] = new_array(std::span<const double>(particle.position), {3});
+    members["position"] = new_list(particle.position);
     members["energy"] = particle.energy;
     members["error"] = particle.error;
     members["evaluations"] = particle.evaluations;
@@ -73,7 +73,7 @@ nb::typed<nb::tuple, double, Array> energy_and_force(BoundInserter& self, ArrayL
   const auto point = point_of(position, "position");
   std::array<double, 3> force{};
   const double energy = unlocked(self.lock, [&] { return self.object.energy_and_force(point, force); });
-  return nb::make_tuple(energy, new_array(std::span<const double>(force), {3}));
+  return nb::make_tuple(energy, new_list(force));
 }
 
 Array energies(BoundInserter& self, ArrayLike positions, ArrayLike out) {

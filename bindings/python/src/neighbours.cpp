@@ -17,6 +17,7 @@
 namespace lanescape::python {
 namespace {
 
+using Arrays = nb::typed<nb::tuple, Array, nb::ellipsis>;
 using Excluded = std::pair<std::int64_t, std::int64_t>;
 
 constexpr const char* all_quantities = "ijSDds";
@@ -27,11 +28,9 @@ class NeighbourList {
  public:
   explicit NeighbourList(NeighbourFinder::Options options) : options_(std::move(options)) { NeighbourFinder check(options_); }
 
-  nb::typed<nb::tuple, Array, nb::ellipsis> compute(ArrayLike points, ArrayLike box, nb::handle periodic,
-                                                    const std::string& quantities, ArrayLike species);
-  nb::typed<nb::tuple, Array, nb::ellipsis> compute_around(ArrayLike queries, ArrayLike points, ArrayLike box, nb::handle periodic,
-                                                           const std::string& quantities, ArrayLike query_species,
-                                                           ArrayLike species);
+  Arrays compute(ArrayLike points, ArrayLike box, nb::handle periodic, const std::string& quantities, ArrayLike species);
+  Arrays compute_around(ArrayLike queries, ArrayLike points, ArrayLike box, nb::handle periodic, const std::string& quantities,
+                        ArrayLike query_species, ArrayLike species);
   // Pairs that are never listed.
   void exclude(std::vector<Excluded> pairs);
   Array exclusions() const;
@@ -92,8 +91,8 @@ nb::object view(const std::shared_ptr<NeighbourFinder>& finder, std::span<const 
   return nb::cast(nb::ndarray<nb::numpy, Number>(const_cast<Number*>(numbers.data()), columns == 1 ? 1 : 2, shape, owner));
 }
 
-nb::typed<nb::tuple, Array, nb::ellipsis> arrays_of(const std::shared_ptr<NeighbourFinder>& finder,
-                                                    const NeighbourFinder::Pairs& pairs, const std::string& quantities) {
+Arrays arrays_of(const std::shared_ptr<NeighbourFinder>& finder, const NeighbourFinder::Pairs& pairs,
+                 const std::string& quantities) {
   nb::list arrays;
   for (const char c : quantities) {
     if (c == 'i') arrays.append(view(finder, pairs.i, 1));
@@ -144,8 +143,8 @@ std::vector<Excluded> excluded_of(ArrayLike given) {
   return pairs;
 }
 
-nb::typed<nb::tuple, Array, nb::ellipsis> NeighbourList::compute(ArrayLike points, ArrayLike box, nb::handle periodic,
-                                                                 const std::string& quantities, ArrayLike species) {
+Arrays NeighbourList::compute(ArrayLike points, ArrayLike box, nb::handle periodic, const std::string& quantities,
+                              ArrayLike species) {
   const Numbers given = Numbers::vectors(points, "points");
   const auto edges = cell_of(box);
   const std::vector<std::int32_t> kinds = kinds_of(species);
@@ -161,9 +160,8 @@ nb::typed<nb::tuple, Array, nb::ellipsis> NeighbourList::compute(ArrayLike point
   return arrays_of(finder, pairs, quantities);
 }
 
-nb::typed<nb::tuple, Array, nb::ellipsis> NeighbourList::compute_around(ArrayLike queries, ArrayLike points, ArrayLike box,
-                                                                        nb::handle periodic, const std::string& quantities,
-                                                                        ArrayLike query_species, ArrayLike species) {
+Arrays NeighbourList::compute_around(ArrayLike queries, ArrayLike points, ArrayLike box, nb::handle periodic,
+                                     const std::string& quantities, ArrayLike query_species, ArrayLike species) {
   const Numbers around = Numbers::vectors(queries, "queries"), given = Numbers::vectors(points, "points");
   const auto edges = cell_of(box);
   const std::vector<std::int32_t> query_kinds = kinds_of(query_species), kinds = kinds_of(species);
@@ -193,9 +191,8 @@ NeighbourFinder::Options options_of(ArrayLike cutoff, bool full_list, bool sorte
 }
 
 nb::tuple NeighbourList::state() const {
-  return nb::make_tuple(new_array(std::span<const double>(options_.cutoffs), {options_.cutoffs.size()}),
-                        options_.members == NeighbourFinder::Members::full, options_.order == NeighbourFinder::Order::sorted,
-                        options_.threads, options_.instruction_set, exclusions());
+  return nb::make_tuple(new_list(options_.cutoffs), options_.members == NeighbourFinder::Members::full,
+                        options_.order == NeighbourFinder::Order::sorted, options_.threads, options_.instruction_set, exclusions());
 }
 
 }  // namespace

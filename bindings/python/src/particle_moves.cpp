@@ -46,15 +46,13 @@ Array positions_of(BoundMoves& self) {
     const auto now = self.object.positions();
     return std::vector<double>(now.begin(), now.end());
   });
-  return new_array(std::span<const double>(numbers), {numbers.size() / 3, 3});
+  return new_vectors(numbers);
 }
 
 nb::tuple state(BoundMoves& self) {
   const std::vector<std::int64_t> species(self.species.begin(), self.species.end());
-  const auto& diameters = self.options.diameters;
-  nb::object sizes = diameters.empty() ? nb::object(nb::none()) : new_array(std::span<const double>(diameters), {diameters.size()});
-  return nb::make_tuple(self.model, new_array(std::span<const std::int64_t>(species), {species.size()}), positions_of(self),
-                        new_array(std::span<const double>(self.box), {3}), self.options.instruction_set, std::move(sizes));
+  return nb::make_tuple(self.model, new_list(species), positions_of(self), new_list(self.box), self.options.instruction_set,
+                        new_list_or_none(self.options.diameters));
 }
 
 }  // namespace

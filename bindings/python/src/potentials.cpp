@@ -37,10 +37,10 @@ void make(BoundPotential* self, const Model& model, ArrayLike species, ArrayLike
 
 Array species_array(const Potential& potential) {
   const std::vector<std::int64_t> species(potential.species().begin(), potential.species().end());
-  return new_array(std::span<const std::int64_t>(species), {species.size()});
+  return new_list(species);
 }
 
-Array box_array(const Potential& potential) { return new_array(std::span<const double>(potential.box()), {3}); }
+Array box_array(const Potential& potential) { return new_list(potential.box()); }
 
 void set_exclusions(BoundPotential& self, ArrayLike given) {
   std::vector<std::array<std::size_t, 2>> pairs;
@@ -62,9 +62,8 @@ Array exclusions_of(const BoundPotential& self) {
 // What a pickle holds: the parameters.
 nb::tuple parameters(const BoundPotential& self) {
   const auto& [threads, precision, instruction_set, diameters] = self.object.options();
-  nb::object sizes = diameters.empty() ? nb::object(nb::none()) : new_array(std::span<const double>(diameters), {diameters.size()});
   return nb::make_tuple(self.object.model(), species_array(self.object), box_array(self.object), nb::none(), threads, precision,
-                        instruction_set, sizes, exclusions_of(self));
+                        instruction_set, new_list_or_none(diameters), exclusions_of(self));
 }
 
 void restore(BoundPotential* self, const nb::tuple& state) {

@@ -7,8 +7,6 @@
 namespace lanescape::python {
 namespace {
 
-Array list_of(const std::vector<double>& values) { return new_array(std::span<const double>(values), {values.size()}); }
-
 ShortPathObject to_python(const ShortPath& path) {
   nb::dict members;
   members["outcome"] = path.outcome;
@@ -20,8 +18,8 @@ ShortPathObject to_python(const ShortPath& path) {
   members["landscape_energy"] = path.landscape_energy;
   members["largest_violation"] = path.largest_violation;
   members["kuhn_tucker_residual"] = path.kuhn_tucker_residual;
-  members["multipliers"] = path.kuhn_tucker_residual ? nb::object(list_of(path.multipliers)) : nb::object(nb::none());
-  members["start_lengths"] = list_of(path.start_lengths);
+  members["multipliers"] = path.kuhn_tucker_residual ? nb::object(new_list(path.multipliers)) : nb::object(nb::none());
+  members["start_lengths"] = new_list(path.start_lengths);
   members["evaluations"] = path.evaluations;
   members["seconds"] = path.seconds;
   members["frames"] = frames_of(path.frames);
@@ -36,9 +34,9 @@ PathCertificateObject to_python(const PathCertificate& certificate) {
   members["landscape_energy"] = certificate.landscape_energy;
   members["largest_violation"] = certificate.largest_violation;
   members["kuhn_tucker_residual"] = certificate.kuhn_tucker_residual;
-  members["multipliers"] = list_of(certificate.multipliers);
-  members["excess"] = list_of(certificate.excess);
-  members["segment_violation"] = list_of(certificate.segment_violation);
+  members["multipliers"] = new_list(certificate.multipliers);
+  members["excess"] = new_list(certificate.excess);
+  members["segment_violation"] = new_list(certificate.segment_violation);
   return new_result<PathCertificateObject>(members);
 }
 

@@ -21,7 +21,7 @@ void make(BoundStates* self, const Model& model, ArrayLike species, ArrayLike bo
 
 Array order_parameters(BoundStates& self) {
   const std::vector<double> values = unlocked(self.lock, [&] { return self.object.order_parameters(); });
-  return new_array(std::span<const double>(values), {values.size()});
+  return new_list(values);
 }
 
 Array probabilities(BoundStates& self) {
@@ -39,8 +39,7 @@ void set_box(BoundStates& self, ArrayLike box) {
 nb::tuple state(const BoundStates& self) {
   const auto& [model, species, box, threads, instruction_set, order_parameter, response] = self.parameters;
   const std::vector<std::int64_t> indices(species.begin(), species.end());
-  return nb::make_tuple(model, new_array(std::span<const std::int64_t>(indices), {indices.size()}),
-                        new_array(std::span<const double>(box), {3}), threads, instruction_set, order_parameter, response);
+  return nb::make_tuple(model, new_list(indices), new_list(box), threads, instruction_set, order_parameter, response);
 }
 
 constexpr const char* parameters_text =
@@ -84,7 +83,7 @@ void bind_states(nb::module_& module) {
       .def("__init__", &make, "model"_a, "species"_a, "box"_a, nb::kw_only(), "threads"_a = 1, "instruction_set"_a = "auto",
            "order_parameter"_a = nb::none(), "response"_a = nb::none(), parameters_text)
       .def_prop_rw(
-          "box", [](const BoundStates& self) { return new_array(std::span<const double>(self.parameters.box), {3}); }, &set_box,
+          "box", [](const BoundStates& self) { return new_list(self.parameters.box); }, &set_box,
           "Edges, (3,). A new box holds for the calls that follow.")
       .def_prop_ro(
           "particles", [](const BoundStates& self) { return self.object.particles(); }, "N.")
