@@ -9,7 +9,7 @@ module lanescape_short_paths
   implicit none
   private
 
-  ! How a path is shortened. Of the search, frames have no effect and reverse is false; it has the progress of all of it.
+  ! How a path is shortened. The frames of the search have no effect, its reverse must be false, and its progress is that of all.
   type, public :: lanescape_shorten_settings
     character(16) :: method = ""                   ! curve or montecarlo; blank: the library's own choice
     integer(c_int64_t) :: starts = 1, seed = 1     ! independent runs with other random numbers, of which the shortest path is kept

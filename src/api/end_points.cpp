@@ -90,7 +90,7 @@ std::vector<EndPoints> soft_end_points(const AnyModel& model, const Start& start
 }
 
 std::vector<EndPoints> hard_end_points(const HardSphereModel& model, const Start& start, const EndPointSettings& settings) {
-  checked_threads(settings.threads);  // have no effect, but are no less wrong
+  checked_threads(settings.threads);  // has no effect here; a wrong value is refused all the same
   parse_precision(settings.precision);
   HardEndPointOptions options;
   if (settings.quick) options.make_quick();

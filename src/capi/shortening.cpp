@@ -38,7 +38,7 @@ CheckSettings settings_of(const lanescape_check_settings* given) {
 }
 
 Frames frames_of(const double* positions, std::size_t frames, std::size_t particles) {
-  if (particles == 0) return {};  // they are refused
+  if (particles == 0) return {};  // the library refuses them
   const std::size_t numbers = times(3, particles);
   const auto all = array(positions, times(numbers, frames), "positions");
   Frames separate;

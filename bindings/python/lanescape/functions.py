@@ -74,9 +74,9 @@ def find_path(landscape: Any, start: ArrayLike, finish: ArrayLike, *, species: "
     masses: of a landscape's particles, (N,), None for equal ones; a model has its own.
 
     method: contour or escape for energies, avoidance or away for hard spheres; None: the first of the family.
-    adaptive: for contour: steps as long as an estimate of their error allows, the same path in a thirtieth of the evaluations.
-    step: length of a direct step in 3N space, where steps are not adaptive; avoidance_step: of each sphere in an avoidance step; in units of length. None: the
-    method's own, in the unit of length of the model or of the potential.
+    adaptive: for contour: steps as long as an estimate of their error allows, the same path in fewer evaluations.
+    step: length of a direct step in 3N space, where steps are not adaptive; avoidance_step: of each sphere in an avoidance step; in units
+    of length. None: the method's own, in the unit of length of the model or of the potential.
     fictitious: force between overlapping spheres in an avoidance step, harmonic, linear or cubic.
     landscape_energy: E_L, in units of energy; None: the higher of the two ends.
     reverse: search from the far end too and keep the shorter path.
@@ -87,10 +87,9 @@ def find_path(landscape: Any, start: ArrayLike, finish: ArrayLike, *, species: "
 
     Raises InputError for ends that differ, coincide, overlap or lie above E_L. Exceptions of a landscape pass through.
     """
-    options = {"method": method, "adaptive": adaptive, "step": step, "avoidance_step": avoidance_step, "fictitious": fictitious, "landscape_energy": landscape_energy,
-               "reverse": reverse, "max_steps": max_steps, "patience": patience, "frames": frames, "threads": threads, "precision": precision,
-               "instruction_set": instruction_set, "progress": progress}
-    options = _given(options)
+    options = _given({"method": method, "adaptive": adaptive, "step": step, "avoidance_step": avoidance_step, "fictitious": fictitious,
+                      "landscape_energy": landscape_energy, "reverse": reverse, "max_steps": max_steps, "patience": patience, "frames": frames,
+                      "threads": threads, "precision": precision, "instruction_set": instruction_set, "progress": progress})
     if _is_model(landscape, species, box, diameters, masses, threads, precision, instruction_set):
         return _core.path_of_model(landscape, start, finish, species, box, diameters, options)
     return _core.path_on_landscape(landscape, start, finish, masses, options)
@@ -146,7 +145,7 @@ def check_path(landscape: Any, path: ArrayLike, *, species: "ArrayLike | None" =
 
 
 def _given(options: dict[str, Any]) -> dict[str, Any]:
-    """Without those that are None, which stand for the library's own."""
+    """Without the options that are None for the library's own choice. None for any other is left, and refused."""
     return {name: value for name, value in options.items() if value is not None or name not in _MAY_BE_NONE}
 
 

@@ -77,7 +77,7 @@ typedef struct lanescape_event_driven_report {
   size_t size;
   uint64_t collisions;
   double time, kinetic_energy;
-  double compressibility;  // p V / (N k_B T) since the start, where it is not a number
+  double compressibility;  // p V / (N k_B T) since the start; not a number before any time has passed
 } lanescape_event_driven_report;
 
 // masses: of each particle, or NULL for 1. instruction_set may be NULL for auto. Spheres must not overlap by more than rounding,

@@ -70,7 +70,7 @@ class LANESCAPE_API EventDrivenDynamics {
   std::uint64_t collisions() const;
   double time() const;
   double kinetic_energy() const;
-  double compressibility() const;         // Z = p V / (N k_B T) since the start, where it is not a number
+  double compressibility() const;         // Z = p V / (N k_B T) since the start; not a number before any time has passed
   std::vector<double> positions() const;  // unwrapped
   std::vector<double> velocities() const;
   // The state as bytes, and back. All spheres are brought to one time first: the trajectory goes on with other bits than without.

@@ -238,7 +238,7 @@ lanescape_status lanescape_neighbours_destroy(lanescape_neighbours* neighbours);
 typedef struct lanescape_hard_sphere_options {
   size_t size;
   const char* instruction_set;  // auto, or a word of lanescape_instruction_set()
-  // 0. Above, lanescape_hard_spheres_any_overlap() keeps a list of pairs with gaps below `skin` smallest diameters, for
+  // 0; above 0, lanescape_hard_spheres_any_overlap() keeps a list of pairs with gaps below `skin` smallest diameters, for
   // configurations that follow each other in small steps.
   double skin;
 } lanescape_hard_sphere_options;

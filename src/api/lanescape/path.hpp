@@ -18,10 +18,10 @@ LANESCAPE_ABI_BEGIN
 
 // How a path is searched between two configurations that never leaves the allowed region V(R) <= E_L, or overlaps.
 struct PathSettings {
-  std::string method{};         // contour or escape (soft), avoidance or away (hard spheres); empty: the first of the family
-  bool adaptive = false;        // contour: steps as long as an estimate of their error allows, the same path in fewer evaluations
-  double step = 0.0;            // faithful: length of a direct step in 3N space; 0: the method's own, in the model's unit of length
-  double avoidance_step = 0.0;  // of each sphere that an avoidance step moves; 0: 1e-4 of that unit
+  std::string method{};   // contour or escape (soft), avoidance or away (hard spheres); empty: the first of the family
+  bool adaptive = false;  // contour: steps as long as an estimate of their error allows, the same path in fewer evaluations
+  double step = 0.0;      // not adaptive: length of a direct step in 3N space; 0: the method's own, in the model's unit of length
+  double avoidance_step = 0.0;               // of each sphere that an avoidance step moves; 0: 1e-4 of that unit
   std::string fictitious = "harmonic";       // force between overlapping spheres in an avoidance step; or linear, cubic
   std::optional<double> landscape_energy{};  // E_L; nothing: the higher of the two ends
   bool reverse = false;                      // search from the far end too and keep the shorter path
@@ -42,10 +42,9 @@ struct Path {
   double ratio_squared = 0.0;        // (distance / length)^2, 0 for a path that did not move
   double participation_ratio = 0.0;  // n/N: share of the particles that move at a time
   std::uint64_t direct_steps = 0, detour_steps = 0, evaluations = 0;
-  double landscape_energy = 0.0;  // E_L of soft models
-  double largest_violation =
-      0.0;                // largest V - E_L of an accepted point, adaptive along the steps too, or deepest overlap; at least 0
-  bool reversed = false;  // frames run from the finish to the start
+  double landscape_energy = 0.0;   // E_L of soft models
+  double largest_violation = 0.0;  // largest V - E_L of accepted points, along adaptive steps too, or deepest overlap; at least 0
+  bool reversed = false;           // frames run from the finish to the start
   double seconds = 0.0;
   std::vector<std::vector<double>> frames;  // 3N each, ends included
   bool reached() const { return outcome == "reached"; }

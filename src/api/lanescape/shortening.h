@@ -20,7 +20,7 @@ typedef struct lanescape_shorten_settings {
   uint64_t starts;     // independent runs with other random numbers, of which the shortest path is kept, 1
   uint64_t seed;       // 1
   // How the path to start from and those in between are found, with the threads, precision, instruction set and landscape energy of
-  // all of it; NULL: the defaults. Its frames have no effect, and reverse is 0. Its progress is called with the number of
+  // all of it; NULL: the defaults. Its frames have no effect, and its reverse must be 0. Its progress is called with the number of
   // iterations or trials made so far, 0 while the path to start from is found.
   const lanescape_path_settings* search;
 } lanescape_shorten_settings;

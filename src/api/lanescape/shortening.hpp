@@ -21,7 +21,7 @@ struct ShortenSettings {
   std::uint64_t starts = 1;  // independent runs, of which the shortest path is kept
   std::uint64_t seed = 1;
   // How the path to start from and those in between are found, with the threads, precision, instruction set and landscape energy of
-  // all of it. Its frames have no effect, and it is not searched from both ends. Its progress is called with the number of
+  // all of it. Its frames have no effect, and its reverse must be false. Its progress is called with the number of
   // iterations or trials made so far, 0 while the path to start from is found, from the thread that calls.
   PathSettings search{};
 };
@@ -70,8 +70,8 @@ struct PathCertificate {
   double kuhn_tucker_residual = 0.0;
   std::vector<double> multipliers{};  // lambda_k >= 0 of each frame; of hard spheres the sum over contacts
   std::vector<double> excess{};       // of each frame: V - E_L; of hard spheres the smallest gap, infinity for a single one
-  std::vector<double>
-      segment_violation{};  // of each segment, one fewer: the largest V - E_L; of hard spheres minus the smallest gap
+  // Of each segment, frames - 1: the largest V - E_L; of hard spheres minus the smallest gap.
+  std::vector<double> segment_violation{};
 };
 
 struct CheckSettings {
