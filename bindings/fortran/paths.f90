@@ -12,7 +12,7 @@ module lanescape_paths
   ! How a path is searched; 0 and blanks stand for the library's own choice.
   type, public :: lanescape_path_settings
     character(16) :: method = ""                   ! contour or escape (soft), avoidance or away (hard spheres)
-    logical :: adaptive = .false.                  ! contour: steps as long as an estimate of their error allows
+    logical :: adaptive = .false.                  ! contour: steps as long as their error allows; avoidance: slides along contacts
     real(dp) :: step = 0, avoidance_step = 0       ! length of a direct step in 3N space; of each sphere that an avoidance step moves
     character(16) :: fictitious = ""               ! force between overlapping spheres: harmonic, linear, cubic
     real(dp), allocatable :: landscape_energy      ! E_L; not allocated: the higher of the two ends

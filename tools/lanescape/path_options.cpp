@@ -23,7 +23,7 @@ void PathOptions::add_to(Options& options, const std::string& method_option) {
   options.add_synonym_of_default("--faithful", "steps exactly as published (the default)");
   options
       .add_flag("--adaptive", adaptive_,
-                fmt::format("steps as long as an estimate of their error allows, the same path in less time: {}",
+                fmt::format("few long steps, as far as their error allows, of hard spheres along contacts: methods {}",
                             adaptive_method_words()))
       .excludes("--faithful");
   options.add("--step", step_, "length of a direct step in 3N space [sigma] [0.001; hard spheres 0.01; see FORMATS.md, Units]")

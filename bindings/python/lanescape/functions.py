@@ -74,7 +74,8 @@ def find_path(landscape: Any, start: ArrayLike, finish: ArrayLike, *, species: "
     masses: of a landscape's particles, (N,), None for equal ones; a model has its own.
 
     method: contour or escape for energies, avoidance or away for hard spheres; None: the first of the family.
-    adaptive: for contour: steps as long as an estimate of their error allows, the same path in fewer evaluations.
+    adaptive: for contour: steps as long as an estimate of their error allows, the limit of short steps in fewer evaluations; for avoidance: slides
+        along contacts in long steps, shorter paths.
     step: length of a direct step in 3N space, where steps are not adaptive; avoidance_step: of each sphere in an avoidance step; in units
     of length. None: the method's own, in the unit of length of the model or of the potential.
     fictitious: force between overlapping spheres in an avoidance step, harmonic, linear or cubic.

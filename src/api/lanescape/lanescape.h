@@ -346,7 +346,9 @@ typedef struct lanescape_path_settings {
   const char* instruction_set;     // auto, or a word of lanescape_instruction_set()
   lanescape_progress progress;     // or NULL
   void* progress_user;
-  int adaptive;  // contour: steps as long as an estimate of their error allows, the same path in fewer evaluations, 0
+  // contour: steps as long as an estimate of their error allows, the limit of short steps in fewer evaluations; avoidance: slides
+  // along contacts in long steps, shorter paths; 0
+  int adaptive;
 } lanescape_path_settings;
 
 typedef struct lanescape_path_summary {

@@ -18,9 +18,11 @@ LANESCAPE_ABI_BEGIN
 
 // How a path is searched between two configurations that never leaves the allowed region V(R) <= E_L, or overlaps.
 struct PathSettings {
-  std::string method{};   // contour or escape (soft), avoidance or away (hard spheres); empty: the first of the family
-  bool adaptive = false;  // contour: steps as long as an estimate of their error allows, the same path in fewer evaluations
-  double step = 0.0;      // not adaptive: length of a direct step in 3N space; 0: the method's own, in the model's unit of length
+  std::string method{};  // contour or escape (soft), avoidance or away (hard spheres); empty: the first of the family
+  // contour: steps as long as an estimate of their error allows, the limit of short steps in fewer evaluations; avoidance: slides
+  // along contacts in long steps, shorter paths
+  bool adaptive = false;
+  double step = 0.0;  // not adaptive: length of a direct step in 3N space; 0: the method's own, in the model's unit of length
   double avoidance_step = 0.0;               // of each sphere that an avoidance step moves; 0: 1e-4 of that unit
   std::string fictitious = "harmonic";       // force between overlapping spheres in an avoidance step; or linear, cubic
   std::optional<double> landscape_energy{};  // E_L; nothing: the higher of the two ends
