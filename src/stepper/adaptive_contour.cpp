@@ -9,7 +9,6 @@
 namespace lanescape {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // Of the displacement before; 1/3 is that of the second backward differentiation formula, extrapolated.
 constexpr double momentum = 1.0 / 3.0;
 constexpr std::uint64_t max_returns = 8;  // along the gradient, of one step
@@ -26,7 +25,7 @@ AdaptiveContourStepper::AdaptiveContourStepper(SoftLandscape& landscape, double 
       options_(options),
       direct_step_(0.05 * options.unit),
       contour_step_(0.01 * options.unit),
-      goal_tried_(infinity),
+      goal_tried_(std::numeric_limits<double>::infinity()),
       corrections_(16, 0),
       gradient_(landscape.dimension(), 0.0),
       trial_gradient_(gradient_),
@@ -200,7 +199,7 @@ double AdaptiveContourStepper::relative_error(const PathPoint& at, double length
   const double growth = second_order ? length / length_before_ : 0.0;
   algebra.combine(scratch_, trial_tangent_, -1.0 - growth, tangent_, growth, tangent_before_);
   const double turn = algebra.norm(scratch_);
-  if (!std::isfinite(turn)) return infinity;
+  if (!std::isfinite(turn)) return std::numeric_limits<double>::infinity();
   return std::max(1e-12, (second_order ? (5.0 + momentum) / (12.0 * (1.0 - momentum)) : 0.5) * turn);
 }
 

@@ -16,7 +16,7 @@ constexpr double largest_tension = 5.0;  // of short segments
 constexpr double sliding_limit = 0.2;    // of the residual before corridors are made, in which nodes move less easily
 // Of nodes that touch on both sides. Contacts that begin and end keep them from settling in dense systems.
 constexpr std::uint64_t most_tight_iterations = 1000;
-constexpr int most_corrections = 40;
+constexpr int most_restorations = 40;
 
 }  // namespace
 
@@ -119,7 +119,7 @@ void HardCurve::find_step() {
   double weight = condition();
   direction_ = conditioned_;
   const double enough = 0.01 * weight;
-  for (int correction = 0; correction < most_corrections && weight > enough; ++correction) {
+  for (int correction = 0; correction < most_restorations && weight > enough; ++correction) {
     blocks.for_each_node([&](std::size_t k) {
       apply(direction_, k, applied_[k]);
       nodes_->keep_to_face(k, applied_[k]);
