@@ -8,6 +8,8 @@ namespace lanescape {
 namespace {
 
 constexpr std::size_t most_pivots = 100, most_multiplier_steps = 200;
+// Nodes that a row of the matrix reaches to either side, per coordinate: a wider band costs more than solves of the string.
+constexpr std::size_t widest_band = 2;
 
 double product_sum(const std::vector<double>& a, const std::vector<double>& b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
@@ -29,20 +31,18 @@ BoundaryProblem::BoundaryProblem(const VectorAlgebra& algebra, const NodeBlocks&
       field_(nodes, AlignedArray(dimension, 0.0)),
       free_(field_) {}
 
-// field_ = (L + shift)^-1 of the normals of nodes on the boundary, by weight.
-void BoundaryProblem::spread(const Polyline& normals, const std::vector<double>& weights) {
-  blocks_->for_each_node([&](std::size_t k) {
+// field_ = (L + shift)^-1 of the normals of nodes on the boundary, by weight. Calls use(k) when that of node k is there.
+void BoundaryProblem::spread(const Polyline& normals, const std::vector<double>& weights, const StringLaplacian::NodeAction& use) {
+  const auto weighted_normal = [&](std::size_t k) {
     const double weight = active_[k] ? weights[k] : 0.0;
-    const AlignedArray& normal = normals[k];
-    AlignedArray& out = field_[k];
-    for (std::size_t q = 0; q < out.size(); ++q) out[q] = weight * normal[q];
-  });
-  laplacian_.solve(field_, *blocks_);
+    algebra_->axpy(field_[k], field_.front(), weight, normals[k]);
+  };
+  laplacian_.solve(*algebra_, field_, *blocks_, weighted_normal, use);
 }
 
 void BoundaryProblem::multiply(const Polyline& normals, const std::vector<double>& weights, std::vector<double>& out) {
-  spread(normals, weights);
-  blocks_->for_each_node([&](std::size_t k) { out[k] = active_[k] ? algebra_->dot(field_[k], normals[k]) : 0.0; });
+  if (matrix_.reach() <= widest_band * normals.front().size()) return matrix_.multiply(weights, active_, out, *blocks_);
+  spread(normals, weights, [&](std::size_t k) { out[k] = active_[k] ? algebra_->dot(field_[k], normals[k]) : 0.0; });
 }
 
 // By n_j.(L + shift)_jk n_k, whose inverse is close to the matrix of multiply() where normals turn slowly along the path.
@@ -64,6 +64,7 @@ void BoundaryProblem::prepare_neighbours(const Polyline& normals) {
 void BoundaryProblem::solve_multipliers(const Polyline& normals, const std::vector<double>& target, double accuracy) {
   for (std::size_t k = 0; k < nodes_; ++k)
     if (!active_[k]) multipliers_[k] = 0.0;
+  if (matrix_.reach() <= widest_band * normals.front().size()) matrix_.include(*algebra_, normals, active_, *blocks_);
   multiply(normals, multipliers_, product_);
   double wanted = 0.0, left = 0.0;
   for (std::size_t k = 1; k + 1 < nodes_; ++k) {
@@ -107,19 +108,18 @@ std::vector<std::size_t> BoundaryProblem::infeasible(const Polyline& normals, co
 void BoundaryProblem::solve(const Polyline& pull, const Polyline& normals, const std::vector<double>& room, double shift,
                             double tolerance, Polyline& step) {
   laplacian_.prepare(nodes_, shift);
+  matrix_.prepare(laplacian_, nodes_);
   prepare_neighbours(normals);
-  free_ = pull;
-  laplacian_.solve(free_, *blocks_);
   std::vector<double> target(nodes_, 0.0);
-  blocks_->for_each_node([&](std::size_t k) {
+  const auto pull_of = [&](std::size_t k) { free_[k] = pull[k]; };
+  laplacian_.solve(*algebra_, free_, *blocks_, pull_of, [&](std::size_t k) {
     target[k] = algebra_->dot(free_[k], normals[k]) - room[k];
     active_[k] = multipliers_[k] > 0.0;
   });
   std::size_t fewest = nodes_, tries = 3;
   for (std::size_t pivot = 0; pivot < most_pivots; ++pivot) {
     solve_multipliers(normals, target, 1e-6);
-    spread(normals, multipliers_);
-    blocks_->for_each_node([&](std::size_t k) { algebra_->axpy(step[k], free_[k], -1.0, field_[k]); });
+    spread(normals, multipliers_, [&](std::size_t k) { algebra_->axpy(step[k], free_[k], -1.0, field_[k]); });
     const std::vector<std::size_t> wrong = infeasible(normals, room, tolerance, step);
     if (wrong.empty()) break;
     // All at once while that makes them fewer, or has not for three times only; else one, which cannot go on for ever.
@@ -135,19 +135,18 @@ void BoundaryProblem::solve(const Polyline& pull, const Polyline& normals, const
 }
 
 void BoundaryProblem::project(const Polyline& field, const Polyline& normals, Polyline& out) {
-  out = field;
-  laplacian_.solve(out, *blocks_);
   std::vector<double> target(nodes_, 0.0), kept(nodes_, 0.0);
-  blocks_->for_each_node([&](std::size_t k) { target[k] = active_[k] ? algebra_->dot(out[k], normals[k]) : 0.0; });
+  laplacian_.solve(
+      *algebra_, out, *blocks_, [&](std::size_t k) { out[k] = field[k]; },
+      [&](std::size_t k) { target[k] = active_[k] ? algebra_->dot(out[k], normals[k]) : 0.0; });
   kept.swap(multipliers_);
   solve_multipliers(normals, target, 1e-6);
-  spread(normals, multipliers_);
-  kept.swap(multipliers_);
-  blocks_->for_each_node([&](std::size_t k) {
+  spread(normals, multipliers_, [&](std::size_t k) {
     algebra_->axpy(out[k], out[k], -1.0, field_[k]);
     // The rest of the normal part, which the conjugate gradients leave.
     if (active_[k]) algebra_->axpy(out[k], out[k], -algebra_->dot(out[k], normals[k]), normals[k]);
   });
+  kept.swap(multipliers_);
 }
 
 }  // namespace lanescape

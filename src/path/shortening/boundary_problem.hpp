@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "path/polyline.hpp"
+#include "path/shortening/boundary_matrix.hpp"
 #include "path/shortening/node_blocks.hpp"
 #include "path/shortening/string_laplacian.hpp"
 
@@ -33,7 +34,7 @@ class BoundaryProblem {
   void solve_multipliers(const Polyline& normals, const std::vector<double>& target, double accuracy);
   void multiply(const Polyline& normals, const std::vector<double>& weights, std::vector<double>& out);
   void precondition(const std::vector<double>& in, std::vector<double>& out) const;
-  void spread(const Polyline& normals, const std::vector<double>& weights);
+  void spread(const Polyline& normals, const std::vector<double>& weights, const StringLaplacian::NodeAction& use);
   void prepare_neighbours(const Polyline& normals);
   std::vector<std::size_t> infeasible(const Polyline& normals, const std::vector<double>& room, double tolerance,
                                       const Polyline& step) const;
@@ -41,6 +42,7 @@ class BoundaryProblem {
   const VectorAlgebra* algebra_;
   const NodeBlocks* blocks_;
   StringLaplacian laplacian_;
+  BoundaryMatrix matrix_;
   std::size_t nodes_;
   std::vector<char> active_;
   std::vector<double> multipliers_;

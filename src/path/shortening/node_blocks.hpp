@@ -1,10 +1,12 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
+#include <functional>
+#include <memory>
 
 #include "core/parallel.hpp"
+#include "core/thread_team.hpp"
 
 namespace lanescape {
 
@@ -12,23 +14,35 @@ namespace lanescape {
 // lists, does the same work in the same order on any number of threads.
 class NodeBlocks {
  public:
-  static constexpr std::size_t count = 16;
+  static constexpr std::size_t count = ThreadTeam::blocks;
 
   // Of a path of `nodes` nodes, both ends among them.
-  NodeBlocks(std::size_t nodes, int threads)
-      : inner_(nodes < 2 ? 0 : nodes - 2), threads_(std::clamp(threads, 1, static_cast<int>(count))) {}
+  NodeBlocks(std::size_t nodes, int threads) : inner_(nodes < 2 ? 0 : nodes - 2), team_(std::make_unique<ThreadTeam>(threads)) {}
 
-  // body(block, first node, node after the last) of each block that is not empty. A thread takes the next block when it is done
-  // with one.
+  // The first node of a block; of the block after the last, the node after the last.
+  std::size_t begin(std::size_t block) const { return 1 + inner_ * block / count; }
+  // Calls program(), whose loops over these blocks share one start of the threads.
+  template <class Program>
+  void run(const Program& program) const {
+    team_->run(std::cref(program));
+  }
+  // body(block, first node, node after the last) of each block that is not empty.
   template <class Body>
   void for_each_block(const Body& body) const {
-    std::atomic<std::size_t> next = 0;
-    for_each_part(threads_, [&](int) {
-      for (std::size_t block = next++; block < count; block = next++) {
-        const std::size_t begin = 1 + inner_ * block / count, end = 1 + inner_ * (block + 1) / count;
-        if (begin < end) body(block, begin, end);
-      }
-    });
+    const auto run_block = [&](std::size_t block) {
+      if (begin(block) < begin(block + 1)) body(block, begin(block), begin(block + 1));
+    };
+    team_->for_each(std::cref(run_block));
+  }
+  // body(begin, end) of shares of n elements that are not nodes, one per thread. No result may depend on how many they are.
+  template <class Body>
+  void for_each_share(std::size_t n, const Body& body) const {
+    const int shares = threads();
+    const auto run_block = [&](std::size_t block) {
+      const auto share = static_cast<int>(block);
+      if (share < shares) body(part_begin(n, share, shares), part_begin(n, share + 1, shares));
+    };
+    team_->for_each(std::cref(run_block));
   }
   // body(node) of each inner node.
   template <class Body>
@@ -56,11 +70,11 @@ class NodeBlocks {
     });
     return *std::max_element(found, found + count);
   }
-  int threads() const { return threads_; }
+  int threads() const { return team_->threads(); }
 
  private:
   std::size_t inner_;
-  int threads_;
+  std::unique_ptr<ThreadTeam> team_;
 };
 
 }  // namespace lanescape

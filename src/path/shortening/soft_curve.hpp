@@ -34,6 +34,7 @@ class SoftCurve final : public CurveRelaxation {
 
  private:
   void allocate(Polyline nodes);
+  Relaxation iterate_on_threads();
   void find_boundary_step();
   void improve_step();
   void apply_curved(const Polyline& direction, Polyline& out);

@@ -34,17 +34,83 @@ void StringLaplacian::prepare(const std::vector<double>& tensions, double shift)
     pivot_[k] = 1.0 / (tensions[k - 1] + tensions[k] + shift - tensions[k - 1] * tensions[k - 1] * pivot_[k - 1]);
 }
 
+std::vector<double> StringLaplacian::couplings() const {
+  std::vector<double> couplings(pivot_.size(), 0.0);
+  for (std::size_t k = 1; k < tensions_.size(); ++k) couplings[k] = pivot_[k] * tensions_[k];
+  return couplings;
+}
+
+std::vector<double> StringLaplacian::inverse_diagonal() const {
+  const std::vector<double> coupling = couplings();
+  std::vector<double> diagonal(pivot_.size(), 0.0);
+  for (std::size_t k = tensions_.size() - 1; k >= 1; --k) diagonal[k] = pivot_[k] + coupling[k] * coupling[k] * diagonal[k + 1];
+  return diagonal;
+}
+
 void StringLaplacian::solve(Polyline& field, const NodeBlocks& blocks) const {
   std::fill(field.front().begin(), field.front().end(), 0.0);
   std::fill(field.back().begin(), field.back().end(), 0.0);
   // Each coordinate is a system of its own. Threads share them in whole cache lines.
   constexpr std::size_t line = 8;
   const std::size_t lines = (field.front().size() + line - 1) / line;
-  const int parts = static_cast<int>(std::min(static_cast<std::size_t>(blocks.threads()), lines));
-  for_each_part(parts, [&](int part) {
-    solve_columns(field, tensions_, pivot_, line * part_begin(lines, part, parts),
-                  std::min(field.front().size(), line * part_begin(lines, part + 1, parts)));
+  blocks.for_each_share(lines, [&](std::size_t begin, std::size_t end) {
+    solve_columns(field, tensions_, pivot_, line * begin, std::min(field.front().size(), line * end));
   });
+}
+
+void StringLaplacian::solve(const VectorAlgebra& algebra, Polyline& field, const NodeBlocks& blocks, const NodeAction& begin,
+                            const NodeAction& end) {
+  field.front().assign(field.front().size(), 0.0);
+  field.back() = field.front();
+  for (Polyline* carried : {&from_before_, &from_behind_}) carried->resize(NodeBlocks::count + 1, field.front());
+  parts_.resize(field.size());
+  eliminate(algebra, field, blocks, begin);
+  for (std::size_t b = 0; b < NodeBlocks::count; ++b)
+    carry(algebra, from_before_[b + 1], from_before_[b], field, blocks.begin(b + 1) - 1, blocks.begin(b) < blocks.begin(b + 1));
+  substitute(algebra, field, blocks);
+  for (std::size_t b = NodeBlocks::count; b-- > 0;)
+    carry(algebra, from_behind_[b], from_behind_[b + 1], field, blocks.begin(b), blocks.begin(b) < blocks.begin(b + 1));
+  blocks.for_each_block([&](std::size_t block, std::size_t first, std::size_t last) {
+    for (std::size_t k = last; k-- > first;) {
+      algebra.axpy(field[k], field[k], parts_[k], from_behind_[block + 1]);
+      end(k);
+    }
+  });
+}
+
+// Eliminates within each block. Leaves the parts of what comes from the block before at each node.
+void StringLaplacian::eliminate(const VectorAlgebra& algebra, Polyline& field, const NodeBlocks& blocks, const NodeAction& begin) {
+  blocks.for_each_block([&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      begin(k);
+      const double coupling = pivot_[k] * tensions_[k - 1];
+      parts_[k] = k == first ? coupling : parts_[k - 1] * coupling;
+      const AlignedArray& before = field[k == first ? 0 : k - 1];  // the end of the path is 0
+      algebra.combine(field[k], field[k], pivot_[k] - 1.0, field[k], coupling, before);
+    }
+  });
+}
+
+// Substitutes within each block, with what has come from the block before. Leaves the parts of what will come from the one behind.
+void StringLaplacian::substitute(const VectorAlgebra& algebra, Polyline& field, const NodeBlocks& blocks) {
+  blocks.for_each_block([&](std::size_t block, std::size_t first, std::size_t last) {
+    double part = 1.0;
+    for (std::size_t k = last; k-- > first;) {
+      const double coupling = pivot_[k] * tensions_[k];
+      const AlignedArray& behind = field[k + 1 == last ? 0 : k + 1];
+      algebra.combine(field[k], field[k], parts_[k], from_before_[block], coupling, behind);
+      parts_[k] = part *= coupling;
+    }
+  });
+}
+
+// What leaves a block of nodes at its node `at`, or has passed it where it has none.
+void StringLaplacian::carry(const VectorAlgebra& algebra, AlignedArray& leaves, const AlignedArray& comes, const Polyline& field,
+                            std::size_t at, bool has_nodes) const {
+  if (has_nodes)
+    algebra.axpy(leaves, field[at], parts_[at], comes);
+  else
+    leaves = comes;
 }
 
 void string_pull(const VectorAlgebra& algebra, const Polyline& nodes, Polyline& pull, const NodeBlocks& blocks) {

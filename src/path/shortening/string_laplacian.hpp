@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "path/polyline.hpp"
@@ -18,13 +19,31 @@ class StringLaplacian {
   void prepare(const std::vector<double>& tensions, double shift);
 
   double diagonal() const { return diagonal_; }
+  // By node: the diagonal of (L + shift)^-1, and the factor by which a column of it, above the diagonal, falls from the next node
+  // to this one. Both are 0 at the ends.
+  std::vector<double> inverse_diagonal() const;
+  std::vector<double> couplings() const;
   // Overwrites the inner nodes of `field` by the solution of (L + shift) x = field. Both ends stay 0. O(nodes x coordinates).
+  // Each block of nodes stays with one thread: it is solved as if the path ended there, and then gets what comes from its
+  // neighbours. begin(k) makes the right-hand side of node k in `field`, end(k) is called when its solution is there.
+  using NodeAction = std::function<void(std::size_t)>;
+  void solve(const VectorAlgebra& algebra, Polyline& field, const NodeBlocks& blocks, const NodeAction& begin,
+             const NodeAction& end);
+  // The same by coordinates, without an algebra, of the right-hand side that is in `field`.
   void solve(Polyline& field, const NodeBlocks& blocks) const;
 
  private:
+  void eliminate(const VectorAlgebra& algebra, Polyline& field, const NodeBlocks& blocks, const NodeAction& begin);
+  void substitute(const VectorAlgebra& algebra, Polyline& field, const NodeBlocks& blocks);
+  void carry(const VectorAlgebra& algebra, AlignedArray& leaves, const AlignedArray& comes, const Polyline& field, std::size_t at,
+             bool has_nodes) const;
+
   double diagonal_ = 2.0;
   std::vector<double> tensions_;  // by segment
   std::vector<double> pivot_;     // one over the pivots of the elimination, by node
+  // Of a solve: what comes into each block of nodes from the block before it, or behind the one before; its parts at nodes.
+  Polyline from_before_, from_behind_;
+  std::vector<double> parts_;
 };
 
 // R_{k-1} - 2 R_k + R_{k+1} of each inner node, the pull of the string: of a geodesic it is normal to the boundary.
