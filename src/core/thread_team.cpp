@@ -45,15 +45,15 @@ void ThreadTeam::run(const std::function<void()>& program) {
   });
 }
 
-void ThreadTeam::for_each(const std::function<void(std::size_t)>& body) {
+void ThreadTeam::for_each(const std::function<void(std::size_t)>& body, Taking taking) {
   if (threads_ == 1) {
     for (std::size_t block = 0; block < blocks; ++block) body(block);
     return;
   }
-  if (!is_running_) return run([&] { for_each(body); });
+  if (!is_running_) return run([&] { for_each(body, taking); });
   body_ = &body;
   left_.store(blocks, std::memory_order_relaxed);
-  const std::uint64_t loop = loop_.load(std::memory_order_relaxed) + 1;
+  const Loop loop{loop_.load(std::memory_order_relaxed).number + 1, taking};
   loop_.store(loop, std::memory_order_release);
   work(0, loop);
   for (Wait wait; left_.load(std::memory_order_acquire) > 0;) wait.once();
@@ -61,38 +61,44 @@ void ThreadTeam::for_each(const std::function<void(std::size_t)>& body) {
 }
 
 void ThreadTeam::help(int thread) {
-  std::uint64_t seen = loop_.load(std::memory_order_acquire);
+  Loop seen = loop_.load(std::memory_order_acquire);
   work(thread, seen);
   for (Wait wait; !has_ended_.load(std::memory_order_acquire); wait.once()) {
-    const std::uint64_t loop = loop_.load(std::memory_order_acquire);
-    if (loop == seen) continue;
+    const Loop loop = loop_.load(std::memory_order_acquire);
+    if (loop.number == seen.number) continue;
     work(thread, seen = loop);
     wait = Wait();
   }
 }
 
-void ThreadTeam::work(int thread, std::uint64_t loop) {
+void ThreadTeam::work(int thread, Loop loop) {
   for (int turn = 0; turn < threads_; ++turn) {
     const int owner = (thread + turn) % threads_;
     const std::size_t begin = part_begin(blocks, owner, threads_), end = part_begin(blocks, owner + 1, threads_);
-    // Those of others from the last on, which their owner comes to last.
-    for (std::size_t k = begin; k < end; ++k) do_block(turn == 0 ? k : end - 1 - (k - begin), loop);
+    if (loop.taking == Taking::own_blocks)
+      do_blocks(begin, end, loop.number);
+    else  // those of others from the last on, which their owner comes to last
+      for (std::size_t k = begin, back = end - 1; k < end; ++k, --back)
+        do_blocks(turn == 0 ? k : back, (turn == 0 ? k : back) + 1, loop.number);
   }
 }
 
-// Nothing, where a thread has taken the block before: a thread that comes late finds none left of a loop that has ended.
-void ThreadTeam::do_block(std::size_t block, std::uint64_t loop) {
-  std::uint64_t before = loop - 1;
-  if (begun_[block].load(std::memory_order_relaxed) != before ||
-      !begun_[block].compare_exchange_strong(before, loop, std::memory_order_acquire))
+// Nothing, where a thread has taken these before: a thread that comes late finds none left of a loop that has ended.
+void ThreadTeam::do_blocks(std::size_t begin, std::size_t end, std::uint32_t loop) {
+  std::uint32_t before = loop - 1;
+  if (begun_[begin].load(std::memory_order_relaxed) != before ||
+      !begun_[begin].compare_exchange_strong(before, loop, std::memory_order_acquire))
     return;
-  try {
-    (*body_)(block);
-  } catch (...) {
-    failures_[block] = std::current_exception();
-    has_failed_ = true;
+  for (std::size_t block = begin; block < end; ++block) {
+    begun_[block].store(loop, std::memory_order_relaxed);
+    try {
+      (*body_)(block);
+    } catch (...) {
+      failures_[block] = std::current_exception();
+      has_failed_ = true;
+    }
   }
-  left_.fetch_sub(1, std::memory_order_release);
+  left_.fetch_sub(end - begin, std::memory_order_release);
 }
 
 void ThreadTeam::rethrow_failure() {

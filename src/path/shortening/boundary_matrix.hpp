@@ -9,6 +9,9 @@
 
 namespace lanescape {
 
+// The scalar product, in partial sums that do not wait for each other.
+double ordered_product(const double* a, const double* b, std::size_t n);
+
 // The matrix n_j.[(L + shift)^-1]_jk n_k of unit normals n, which many products share. Away from its diagonal it falls like
 // exp(-sqrt(shift) |j - k|): what is below rounding is left out, and the rest is a band.
 class BoundaryMatrix {
@@ -26,7 +29,7 @@ class BoundaryMatrix {
  private:
   void compute_row(const VectorAlgebra& algebra, const Polyline& normals, std::size_t j);
   void mirror_row(std::size_t j);
-  double row_times(const double* in, std::size_t j) const;
+  double row_times(const std::vector<double>& in, std::size_t j) const;
   double& at(std::size_t j, std::size_t k) { return band_[j * width_ + reach_ + k - j]; }
 
   std::size_t nodes_ = 0, reach_ = 0, width_ = 0;

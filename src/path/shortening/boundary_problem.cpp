@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace lanescape {
 namespace {
@@ -12,7 +11,7 @@ constexpr std::size_t most_pivots = 100, most_multiplier_steps = 200;
 constexpr std::size_t widest_band = 2;
 
 double product_sum(const std::vector<double>& a, const std::vector<double>& b) {
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+  return ordered_product(a.data(), b.data(), a.size());
 }
 
 }  // namespace
@@ -65,7 +64,10 @@ void BoundaryProblem::solve_multipliers(const Polyline& normals, const std::vect
   for (std::size_t k = 0; k < nodes_; ++k)
     if (!active_[k]) multipliers_[k] = 0.0;
   if (matrix_.reach() <= widest_band * normals.front().size()) matrix_.include(*algebra_, normals, active_, *blocks_);
-  multiply(normals, multipliers_, product_);
+  if (std::all_of(multipliers_.begin(), multipliers_.end(), [](double multiplier) { return multiplier == 0.0; }))
+    product_.assign(nodes_, 0.0);
+  else
+    multiply(normals, multipliers_, product_);
   double wanted = 0.0, left = 0.0;
   for (std::size_t k = 1; k + 1 < nodes_; ++k) {
     residual_[k] = active_[k] ? target[k] - product_[k] : 0.0;

@@ -28,26 +28,31 @@ class NodeBlocks {
   }
   // body(block, first node, node after the last) of each block that is not empty.
   template <class Body>
-  void for_each_block(const Body& body) const {
+  void for_each_block(const Body& body, Taking taking = Taking::one_block) const {
     const auto run_block = [&](std::size_t block) {
       if (begin(block) < begin(block + 1)) body(block, begin(block), begin(block + 1));
     };
-    team_->for_each(std::cref(run_block));
+    team_->for_each(std::cref(run_block), taking);
+  }
+  // The same for the algebra of a few vectors per node.
+  template <class Body>
+  void for_each_short_block(const Body& body) const {
+    for_each_block(body, Taking::own_blocks);
   }
   // body(begin, end) of shares of n elements that are not nodes, one per thread. No result may depend on how many they are.
   template <class Body>
   void for_each_share(std::size_t n, const Body& body) const {
     const int shares = threads();
     const auto run_block = [&](std::size_t block) {
-      const auto share = static_cast<int>(block);
-      if (share < shares) body(part_begin(n, share, shares), part_begin(n, share + 1, shares));
+      for (int share = 0; share < shares; ++share)  // at the first block of its thread
+        if (block == part_begin(count, share, shares)) body(part_begin(n, share, shares), part_begin(n, share + 1, shares));
     };
-    team_->for_each(std::cref(run_block));
+    team_->for_each(std::cref(run_block), Taking::own_blocks);
   }
   // body(node) of each inner node.
   template <class Body>
   void for_each_node(const Body& body) const {
-    for_each_block([&](std::size_t, std::size_t begin, std::size_t end) {
+    for_each_short_block([&](std::size_t, std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) body(k);
     });
   }
@@ -55,8 +60,10 @@ class NodeBlocks {
   template <class Body>
   double sum(const Body& body) const {
     double sums[count] = {};
-    for_each_block([&](std::size_t block, std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) sums[block] += body(k);
+    for_each_short_block([&](std::size_t block, std::size_t begin, std::size_t end) {
+      double of_block = 0.0;
+      for (std::size_t k = begin; k < end; ++k) of_block += body(k);
+      sums[block] = of_block;
     });
     double total = 0.0;
     for (const double s : sums) total += s;
@@ -65,8 +72,10 @@ class NodeBlocks {
   template <class Body>
   double largest(const Body& body) const {
     double found[count] = {};
-    for_each_block([&](std::size_t block, std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) found[block] = std::max(found[block], body(k));
+    for_each_short_block([&](std::size_t block, std::size_t begin, std::size_t end) {
+      double of_block = 0.0;
+      for (std::size_t k = begin; k < end; ++k) of_block = std::max(of_block, body(k));
+      found[block] = of_block;
     });
     return *std::max_element(found, found + count);
   }

@@ -1,7 +1,9 @@
 #include "path/shortening/soft_curve.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "path/bend.hpp"
@@ -84,14 +86,19 @@ double SoftCurve::product(const Polyline& a, const Polyline& b) const {
   return nodes_->blocks().sum([&](std::size_t k) { return nodes_->algebra().dot(a[k], b[k]); });
 }
 
-void SoftCurve::add(Polyline& to, double factor, const Polyline& field) const {
-  nodes_->blocks().for_each_node([&](std::size_t k) { nodes_->algebra().axpy(to[k], to[k], factor, field[k]); });
-}
-
-// The second derivative of the string's energy less that of the multipliers' part of V, times a field.
-void SoftCurve::apply_curved(const Polyline& direction, Polyline& out) {
-  nodes_->blocks().for_each_node([&](std::size_t k) { apply_string(nodes_->algebra(), direction, k, out[k]); });
-  nodes_->add_curvature(*now_, direction, curving_, curvature_displacement * scale_, out);
+// The second derivative of the string's energy less that of the multipliers' part of V, times a field. Returns their product.
+double SoftCurve::apply_curved(const Polyline& direction, Polyline& out) {
+  std::array<double, NodeBlocks::count> products{};
+  nodes_->blocks().for_each_block([&](std::size_t block, std::size_t begin, std::size_t end) {
+    double product = 0.0;
+    for (std::size_t k = begin; k < end; ++k) {
+      apply_string(nodes_->algebra(), direction, k, out[k]);
+      nodes_->add_curvature(*now_, k, block, direction[k], curving_[k], curvature_displacement * scale_, out[k]);
+      product += nodes_->algebra().dot(direction[k], out[k]);
+    }
+    products[block] = product;
+  });
+  return std::accumulate(products.begin(), products.end(), 0.0);
 }
 
 // The step without the curvature of V, cut to the trust region: it makes the string shorter to first order, whatever its length.
@@ -122,15 +129,18 @@ void SoftCurve::improve_step() {
   direction_ = conditioned_;
   double weight = product(rest_, conditioned_);
   const double enough = 0.01 * weight;
+  double stepped = longest(step_);
   for (int improvement = 0; improvement < most_improvements && weight > 0.0; ++improvement) {
-    apply_curved(direction_, applied_);
-    const double curvature = product(direction_, applied_), reach = longest(direction_);
+    const double curvature = apply_curved(direction_, applied_), reach = longest(direction_);
     if (!(reach > 0.0)) return;
-    const double furthest = std::max(0.0, trust_ - longest(step_)) / reach;
-    const double best = curvature > 0.0 ? weight / curvature : furthest;
-    add(step_, std::min(best, furthest), direction_);
+    const double furthest = std::max(0.0, trust_ - stepped) / reach;
+    const double best = curvature > 0.0 ? weight / curvature : furthest, taken = std::min(best, furthest);
+    stepped = nodes_->blocks().largest([&](std::size_t k) {
+      nodes_->algebra().axpy(step_[k], step_[k], taken, direction_[k]);
+      nodes_->algebra().axpy(rest_[k], rest_[k], -taken, applied_[k]);
+      return nodes_->algebra().norm(step_[k]);
+    });
     if (!(best < furthest)) return;
-    add(rest_, -best, applied_);
     boundary_->project(rest_, now_->normals, conditioned_);
     const double next = product(rest_, conditioned_);
     if (next < enough) return;

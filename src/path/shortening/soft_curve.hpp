@@ -37,10 +37,9 @@ class SoftCurve final : public CurveRelaxation {
   Relaxation iterate_on_threads();
   void find_boundary_step();
   void improve_step();
-  void apply_curved(const Polyline& direction, Polyline& out);
+  double apply_curved(const Polyline& direction, Polyline& out);
   double string_energy(const Polyline& nodes) const;
   double longest(const Polyline& field) const;
-  void add(Polyline& to, double factor, const Polyline& field) const;
   double product(const Polyline& a, const Polyline& b) const;
   double measured_residual() const;
 

@@ -82,21 +82,16 @@ bool SoftNodes::move(Field& field, const Field& from, const Polyline& steps, con
   return moved;
 }
 
-void SoftNodes::add_curvature(const Field& field, const Polyline& direction, const std::vector<double>& factors,
-                              double displacement, Polyline& out) {
-  blocks_.for_each_block([&](std::size_t block, std::size_t begin, std::size_t end) {
-    Block& scratch = scratch_[block];
-    for (std::size_t k = begin; k < end; ++k) {
-      const double length = factors[k] > 0.0 ? algebra().norm(direction[k]) : 0.0;
-      if (!(length > 0.0)) continue;
-      const double scale = displacement / length;
-      algebra().axpy(scratch.position, field.nodes[k], scale, direction[k]);
-      ++scratch.evaluations;
-      landscapes_[block]->gradient(scratch.position, scratch.gradient);
-      algebra().combine(out[k], out[k], factors[k] / scale, scratch.gradient, -factors[k] / scale * field.slopes[k],
-                        field.normals[k]);
-    }
-  });
+void SoftNodes::add_curvature(const Field& field, std::size_t k, std::size_t block, const AlignedArray& direction, double factor,
+                              double displacement, AlignedArray& out) {
+  const double length = factor > 0.0 ? algebra().norm(direction) : 0.0;
+  if (!(length > 0.0)) return;
+  Block& scratch = scratch_[block];
+  const double scale = displacement / length;
+  algebra().axpy(scratch.position, field.nodes[k], scale, direction);
+  ++scratch.evaluations;
+  landscapes_[block]->gradient(scratch.position, scratch.gradient);
+  algebra().combine(out, out, factor / scale, scratch.gradient, -factor / scale * field.slopes[k], field.normals[k]);
 }
 
 std::vector<double> SoftNodes::segment_energies(const Field& field, std::size_t samples) {

@@ -31,10 +31,11 @@ class SoftNodes {
   // Moves each node by its step and, where V is above its level, back along the gradient. False if that fails at a node.
   bool move(Field& field, const Field& from, const Polyline& steps, const std::vector<double>& levels, double longest_correction);
   bool restore(Field& field, const std::vector<double>& levels, double longest_correction);
-  // Adds factor_k times the second derivative of V times u_k, the direction, to out_k at nodes with a factor above 0. It is the
-  // difference of grad V at R_k and at R_k + u_k, with u_k scaled to the length `displacement`.
-  void add_curvature(const Field& field, const Polyline& direction, const std::vector<double>& factors, double displacement,
-                     Polyline& out);
+  // Adds factor times the second derivative of V at node k times a direction to `out`, where the factor is above 0. It is the
+  // difference of grad V at R_k and at R_k + u, with u along the direction and of the length `displacement`. From a loop over
+  // blocks.
+  void add_curvature(const Field& field, std::size_t k, std::size_t block, const AlignedArray& direction, double factor,
+                     double displacement, AlignedArray& out);
   // The largest V on each segment.
   std::vector<double> segment_energies(const Field& field, std::size_t samples);
 

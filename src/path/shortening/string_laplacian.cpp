@@ -5,6 +5,8 @@
 namespace lanescape {
 namespace {
 
+constexpr double negligible = 1e-25;  // part of what crosses a block of nodes
+
 // Eliminates and substitutes on coordinates [begin, end) of all nodes.
 void solve_columns(Polyline& field, const std::vector<double>& tensions, const std::vector<double>& pivot, std::size_t begin,
                    std::size_t end) {
@@ -62,55 +64,54 @@ void StringLaplacian::solve(const VectorAlgebra& algebra, Polyline& field, const
                             const NodeAction& end) {
   field.front().assign(field.front().size(), 0.0);
   field.back() = field.front();
-  for (Polyline* carried : {&from_before_, &from_behind_}) carried->resize(NodeBlocks::count + 1, field.front());
+  for (Polyline* of_blocks : {&last_, &first_, &carry_}) of_blocks->resize(NodeBlocks::count, field.front());
   parts_.resize(field.size());
+  passed_.assign(NodeBlocks::count, 1.0);
+  passed_back_ = passed_;
   eliminate(algebra, field, blocks, begin);
-  for (std::size_t b = 0; b < NodeBlocks::count; ++b)
-    carry(algebra, from_before_[b + 1], from_before_[b], field, blocks.begin(b + 1) - 1, blocks.begin(b) < blocks.begin(b + 1));
   substitute(algebra, field, blocks);
-  for (std::size_t b = NodeBlocks::count; b-- > 0;)
-    carry(algebra, from_behind_[b], from_behind_[b + 1], field, blocks.begin(b), blocks.begin(b) < blocks.begin(b + 1));
-  blocks.for_each_block([&](std::size_t block, std::size_t first, std::size_t last) {
+  blocks.for_each_short_block([&](std::size_t block, std::size_t first, std::size_t last) {
+    carry_[block].assign(field.front().size(), 0.0);
+    double part = 1.0;
+    for (std::size_t b = block + 1; b < NodeBlocks::count && part > negligible; part *= passed_back_[b++])
+      algebra.axpy(carry_[block], carry_[block], part, first_[b]);
     for (std::size_t k = last; k-- > first;) {
-      algebra.axpy(field[k], field[k], parts_[k], from_behind_[block + 1]);
+      algebra.axpy(field[k], field[k], parts_[k], carry_[block]);
       end(k);
     }
   });
 }
 
-// Eliminates within each block. Leaves the parts of what comes from the block before at each node.
+// Eliminates within each block.
 void StringLaplacian::eliminate(const VectorAlgebra& algebra, Polyline& field, const NodeBlocks& blocks, const NodeAction& begin) {
-  blocks.for_each_block([&](std::size_t, std::size_t first, std::size_t last) {
+  blocks.for_each_short_block([&](std::size_t block, std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       begin(k);
       const double coupling = pivot_[k] * tensions_[k - 1];
-      parts_[k] = k == first ? coupling : parts_[k - 1] * coupling;
+      parts_[k] = passed_[block] *= coupling;
       const AlignedArray& before = field[k == first ? 0 : k - 1];  // the end of the path is 0
       algebra.combine(field[k], field[k], pivot_[k] - 1.0, field[k], coupling, before);
     }
+    last_[block] = field[last - 1];
   });
 }
 
-// Substitutes within each block, with what has come from the block before. Leaves the parts of what will come from the one behind.
+// Substitutes within each block, with what has come from the blocks before.
 void StringLaplacian::substitute(const VectorAlgebra& algebra, Polyline& field, const NodeBlocks& blocks) {
-  blocks.for_each_block([&](std::size_t block, std::size_t first, std::size_t last) {
-    double part = 1.0;
+  blocks.for_each_short_block([&](std::size_t block, std::size_t first, std::size_t last) {
+    carry_[block].assign(field.front().size(), 0.0);
+    double comes = 1.0, part = 1.0;
+    for (std::size_t b = block; b-- > 0 && comes > negligible; comes *= passed_[b])
+      algebra.axpy(carry_[block], carry_[block], comes, last_[b]);
     for (std::size_t k = last; k-- > first;) {
       const double coupling = pivot_[k] * tensions_[k];
       const AlignedArray& behind = field[k + 1 == last ? 0 : k + 1];
-      algebra.combine(field[k], field[k], parts_[k], from_before_[block], coupling, behind);
+      algebra.combine(field[k], field[k], parts_[k], carry_[block], coupling, behind);
       parts_[k] = part *= coupling;
     }
+    first_[block] = field[first];
+    passed_back_[block] = part;
   });
-}
-
-// What leaves a block of nodes at its node `at`, or has passed it where it has none.
-void StringLaplacian::carry(const VectorAlgebra& algebra, AlignedArray& leaves, const AlignedArray& comes, const Polyline& field,
-                            std::size_t at, bool has_nodes) const {
-  if (has_nodes)
-    algebra.axpy(leaves, field[at], parts_[at], comes);
-  else
-    leaves = comes;
 }
 
 void string_pull(const VectorAlgebra& algebra, const Polyline& nodes, Polyline& pull, const NodeBlocks& blocks) {

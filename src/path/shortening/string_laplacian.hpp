@@ -35,14 +35,14 @@ class StringLaplacian {
  private:
   void eliminate(const VectorAlgebra& algebra, Polyline& field, const NodeBlocks& blocks, const NodeAction& begin);
   void substitute(const VectorAlgebra& algebra, Polyline& field, const NodeBlocks& blocks);
-  void carry(const VectorAlgebra& algebra, AlignedArray& leaves, const AlignedArray& comes, const Polyline& field, std::size_t at,
-             bool has_nodes) const;
 
   double diagonal_ = 2.0;
   std::vector<double> tensions_;  // by segment
   std::vector<double> pivot_;     // one over the pivots of the elimination, by node
-  // Of a solve: what comes into each block of nodes from the block before it, or behind the one before; its parts at nodes.
-  Polyline from_before_, from_behind_;
+  // Of a solve, by block of nodes: its last node once it is eliminated, its first once it is substituted, what comes from other
+  // blocks, and the parts of that which cross it. Then the parts that each node takes.
+  Polyline last_, first_, carry_;
+  std::vector<double> passed_, passed_back_;
   std::vector<double> parts_;
 };
 
