@@ -114,7 +114,8 @@ void SoftCurve::find_boundary_step() {
   for (std::size_t k = 1; k + 1 < count; ++k)
     curving_[k] = boundary_->on_boundary(k) && now_->slopes[k] > 0.0 ? boundary_->multipliers()[k] / now_->slopes[k] : 0.0;
   const double cut = std::min(1.0, trust_ / longest(step_));
-  if (cut < 1.0)
+  is_cut_ = cut < 1.0;
+  if (is_cut_)
     nodes_->blocks().for_each_node([&](std::size_t k) {
       for (double& x : step_[k]) x *= cut;
     });
@@ -140,7 +141,8 @@ void SoftCurve::improve_step() {
       nodes_->algebra().axpy(rest_[k], rest_[k], -taken, applied_[k]);
       return nodes_->algebra().norm(step_[k]);
     });
-    if (!(best < furthest)) return;
+    is_cut_ = !(best < furthest);
+    if (is_cut_) return;
     boundary_->project(rest_, now_->normals, conditioned_);
     const double next = product(rest_, conditioned_);
     if (next < enough) return;
@@ -180,7 +182,7 @@ Relaxation SoftCurve::iterate_on_threads() {
   const bool moved = nodes_->move(*trial_, *now_, step_, levels_, longest_correction * scale_);
   if (moved && string_energy(trial_->nodes) < before) {
     std::swap(now_, trial_);
-    if (reach > 0.9 * trust_) trust_ = std::min(1.5 * trust_, longest_step * scale_);
+    if (is_cut_) trust_ = std::min(1.5 * trust_, longest_step * scale_);
   } else {
     trust_ = reach / 3.0;
   }
