@@ -12,14 +12,19 @@ namespace lanescape {
 namespace {
 
 constexpr int most_corrections = 60;
+// Of all landscapes of a path together: half a gigabyte of lists.
+constexpr std::size_t most_listed_particles = 1'000'000;
 
 }  // namespace
 
 SoftNodes::SoftNodes(const SoftLandscapeMaker& make_landscape, std::size_t nodes, int threads)
     : blocks_(nodes, threads), scratch_(NodeBlocks::count) {
+  landscapes_.push_back(make_landscape());
+  const SoftLandscape& first = *landscapes_.front();
+  has_one_per_node_ = first.has_history() && nodes * first.particles() <= most_listed_particles;
+  while (landscapes_.size() < (has_one_per_node_ ? nodes : NodeBlocks::count)) landscapes_.push_back(make_landscape());
   for (Block& block : scratch_) {
-    landscapes_.push_back(make_landscape());
-    block.position.assign(landscapes_.back()->dimension(), 0.0);
+    block.position.assign(first.dimension(), 0.0);
     block.gradient = block.position;
   }
 }
@@ -33,7 +38,7 @@ std::uint64_t SoftNodes::evaluations() const {
 void SoftNodes::evaluate_node(Field& field, std::size_t k, std::size_t block) {
   AlignedArray& normal = field.normals[k];
   ++scratch_[block].evaluations;
-  field.energies[k] = landscapes_[block]->energy_and_gradient(field.nodes[k], normal);
+  field.energies[k] = landscape(k, block).energy_and_gradient(field.nodes[k], normal);
   field.slopes[k] = algebra().norm(normal);
   // A flat point has no normal. Its node is free: nothing is divided by its slope.
   const double scale = field.slopes[k] > 0.0 ? 1.0 / field.slopes[k] : 0.0;
@@ -90,14 +95,14 @@ void SoftNodes::add_curvature(const Field& field, std::size_t k, std::size_t blo
   const double scale = displacement / length;
   algebra().axpy(scratch.position, field.nodes[k], scale, direction);
   ++scratch.evaluations;
-  landscapes_[block]->gradient(scratch.position, scratch.gradient);
+  landscape(k, block).gradient(scratch.position, scratch.gradient);
   algebra().combine(out, out, factor / scale, scratch.gradient, -factor / scale * field.slopes[k], field.normals[k]);
 }
 
 std::vector<double> SoftNodes::segment_energies(const Field& field, std::size_t samples) {
   std::vector<double> largest(field.nodes.size() - 1);
   const auto energy = [&](std::size_t segment, std::size_t block) {
-    SegmentEnergies energies(*landscapes_[block], samples);
+    SegmentEnergies energies(landscape(segment, block), samples);
     largest[segment] =
         energies.largest(field.nodes[segment], field.energies[segment], field.nodes[segment + 1], field.energies[segment + 1]);
     scratch_[block].evaluations += samples + 1;
@@ -110,10 +115,11 @@ std::vector<double> SoftNodes::segment_energies(const Field& field, std::size_t 
 }
 
 void SoftNodes::exchange(Archive& archive) {
-  for (std::size_t b = 0; b < NodeBlocks::count; ++b) {
-    archive.enter(fmt::format("block{:02}", b + 1));
-    archive.field("evaluations", scratch_[b].evaluations);
-    landscapes_[b]->exchange(archive);
+  for (std::size_t b = 0; b < NodeBlocks::count; ++b)
+    archive.field(fmt::format("evaluations{:02}", b + 1), scratch_[b].evaluations);
+  for (std::size_t k = 0; k < landscapes_.size(); ++k) {
+    archive.enter(fmt::format("landscape{:04}", k + 1));
+    landscapes_[k]->exchange(archive);
     archive.leave();
   }
 }

@@ -49,7 +49,11 @@ class SoftNodes {
   void evaluate_node(Field& field, std::size_t k, std::size_t block);
   bool restore_node(Field& field, std::size_t k, std::size_t block, double level, double longest_correction);
 
+  // Nodes lie further apart than lists reach: where lists are kept, each node has its own, unless they took too much memory.
+  SoftLandscape& landscape(std::size_t k, std::size_t block) { return *landscapes_[has_one_per_node_ ? k : block]; }
+
   NodeBlocks blocks_;
+  bool has_one_per_node_ = false;
   std::vector<std::unique_ptr<SoftLandscape>> landscapes_;
   std::vector<Block> scratch_;
 };
