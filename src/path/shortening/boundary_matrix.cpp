@@ -73,6 +73,7 @@ double BoundaryMatrix::row_times(const std::vector<double>& in, std::size_t j) c
 
 void BoundaryMatrix::multiply(const std::vector<double>& in, const std::vector<char>& wanted, std::vector<double>& out,
                               const NodeBlocks& blocks) const {
+  out.front() = out.back() = 0.0;
   const auto row = [&](std::size_t j) { out[j] = wanted[j] ? row_times(in, j) : 0.0; };
   if (nodes_ * width_ >= fewest_shared_elements) return blocks.for_each_node(row);
   for (std::size_t j = 1; j + 1 < nodes_; ++j) row(j);
