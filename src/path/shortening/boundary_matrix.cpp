@@ -6,7 +6,7 @@
 namespace lanescape {
 namespace {
 
-constexpr double negligible = 1e-13;  // of an element, by those on the diagonal
+constexpr double negligible_element = 1e-13;  // of an element, by those on the diagonal
 // Multiplied on one thread, in some microseconds, where they are fewer.
 constexpr std::size_t fewest_shared_elements = 30'000;
 
@@ -29,7 +29,7 @@ void BoundaryMatrix::prepare(const StringLaplacian& laplacian, std::size_t nodes
   couplings_ = laplacian.couplings();
   diagonal_ = laplacian.inverse_diagonal();
   const double strongest = *std::max_element(couplings_.begin(), couplings_.end());
-  const double reach = strongest > 0.0 ? std::ceil(std::log(negligible) / std::log(strongest)) : 1.0;
+  const double reach = strongest > 0.0 ? std::ceil(std::log(negligible_element) / std::log(strongest)) : 1.0;
   reach_ = static_cast<std::size_t>(std::clamp(reach, 1.0, static_cast<double>(nodes)));
   width_ = 2 * reach_ + 1;
   included_.assign(nodes, 0);

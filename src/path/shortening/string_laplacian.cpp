@@ -5,7 +5,7 @@
 namespace lanescape {
 namespace {
 
-constexpr double negligible = 1e-25;  // part of what crosses a block of nodes
+constexpr double negligible_part = 1e-25;  // part of what crosses a block of nodes
 
 // Eliminates and substitutes on coordinates [begin, end) of all nodes.
 void solve_columns(Polyline& field, const std::vector<double>& tensions, const std::vector<double>& pivot, std::size_t begin,
@@ -73,7 +73,7 @@ void StringLaplacian::solve(const VectorAlgebra& algebra, Polyline& field, const
   blocks.for_each_short_block([&](std::size_t block, std::size_t first, std::size_t last) {
     carry_[block].assign(field.front().size(), 0.0);
     double part = 1.0;
-    for (std::size_t b = block + 1; b < NodeBlocks::count && part > negligible; part *= passed_back_[b++])
+    for (std::size_t b = block + 1; b < NodeBlocks::count && part > negligible_part; part *= passed_back_[b++])
       algebra.axpy(carry_[block], carry_[block], part, first_[b]);
     for (std::size_t k = last; k-- > first;) {
       algebra.axpy(field[k], field[k], parts_[k], carry_[block]);
@@ -101,7 +101,7 @@ void StringLaplacian::substitute(const VectorAlgebra& algebra, Polyline& field, 
   blocks.for_each_short_block([&](std::size_t block, std::size_t first, std::size_t last) {
     carry_[block].assign(field.front().size(), 0.0);
     double comes = 1.0, part = 1.0;
-    for (std::size_t b = block; b-- > 0 && comes > negligible; comes *= passed_[b])
+    for (std::size_t b = block; b-- > 0 && comes > negligible_part; comes *= passed_[b])
       algebra.axpy(carry_[block], carry_[block], comes, last_[b]);
     for (std::size_t k = last; k-- > first;) {
       const double coupling = pivot_[k] * tensions_[k];
