@@ -11,7 +11,7 @@ namespace lanescape {
 namespace {
 
 constexpr std::size_t fewest_nodes = 9;
-constexpr std::uint64_t most_tightenings = 12;
+constexpr std::uint64_t most_tightenings = 30;
 
 }  // namespace
 
