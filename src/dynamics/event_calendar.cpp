@@ -8,6 +8,7 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr std::size_t block = kernels::calendar_block;
+constexpr std::size_t most_scanned = 256;  // entries of which all are looked at to see what comes next
 
 }  // namespace
 
@@ -26,6 +27,7 @@ EventCalendar::EventCalendar(std::size_t events, const kernels::KernelTable& tab
     view_.times[level] = times_[level].data();
     view_.winners[level] = winners_[level].data();
   }
+  while (times_[scanned_].size() > most_scanned) ++scanned_;
 }
 
 void EventCalendar::assign(const std::vector<double>& times) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/aligned_array.hpp"
+#include "core/prefetch.hpp"
 #include "kernel_table.hpp"
 
 namespace lanescape {
@@ -22,14 +23,34 @@ class EventCalendar {
   std::size_t first() const { return static_cast<std::size_t>(view_.winners[view_.levels - 1][0]); }
   double first_time() const { return view_.times[view_.levels - 1][0]; }
 
+  // Calls visit(event) for events after `after` and not after `until`. Only the earliest of each of some hundred blocks is seen.
+  template <class Visit>
+  void for_most_between(double after, double until, Visit visit) const {
+    const double *const blocks = view_.times[scanned_], *const entries = view_.times[scanned_ - 1];
+    for (std::size_t b = 0; b < times_[scanned_].size(); ++b) {
+      if (blocks[b] > until) continue;
+      for (std::size_t k = b * kernels::calendar_block; k < (b + 1) * kernels::calendar_block; ++k)
+        if (entries[k] <= until && entries[k] > after)
+          visit(scanned_ > 1 ? static_cast<std::size_t>(view_.winners[scanned_ - 1][k]) : k);
+    }
+  }
+  // Fetches into the cache what an update of this event reads first.
+  [[gnu::always_inline]] void prefetch(std::size_t event) const {
+    const double* const block = view_.times[0] + event / kernels::calendar_block * kernels::calendar_block;
+    for (std::size_t k = 0; k < kernels::calendar_block; k += doubles_per_line) lanescape::prefetch(block + k);
+  }
+
   EventCalendar(EventCalendar&&) = default;
   EventCalendar& operator=(EventCalendar&&) = default;
 
  private:
+  static constexpr std::size_t doubles_per_line = 8;
+
   const kernels::KernelTable* table_;
   std::vector<AlignedArray> times_;
   std::vector<std::vector<std::int32_t>> winners_;
   kernels::CalendarView view_{};
+  std::size_t scanned_ = 1;  // level of few hundred entries
 };
 
 }  // namespace lanescape

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <type_traits>
 
+#include "configuration/particle_layout.hpp"
 #include "core/error.hpp"
 #include "core/float_environment.hpp"
 #include "dynamics/maxwell.hpp"
@@ -19,27 +22,30 @@ constexpr std::uint64_t most_events_between_collisions = 10'000'000;
 
 // For the functions of dynamics/maxwell.hpp.
 template <class Spheres>
-auto particles_of(Spheres& spheres, const std::vector<double>& masses) {
-  return [&spheres, &masses](auto action) {
-    for (std::size_t i = 0; i < masses.size(); ++i) action(masses[i], spheres[i].vx, spheres[i].vy, spheres[i].vz);
+auto particles_of(Spheres& spheres, const AlignedArray& masses, const std::vector<std::uint32_t>& slot_of) {
+  return [&spheres, &masses, &slot_of](auto action) {
+    for (const std::uint32_t s : slot_of) action(masses[s], spheres[s].vx, spheres[s].vy, spheres[s].vz);
   };
 }
 
 }  // namespace
 
-EventDriven::EventDriven(const Configuration& start, std::vector<double> masses, const kernels::KernelTable& table, double growth)
+EventDriven::EventDriven(const Configuration& start, const std::vector<double>& masses, const kernels::KernelTable& table,
+                         double growth)
     : table_(&table),
       box_(start.box),
-      masses_(std::move(masses)),
       growth_(growth),
+      slot_of_(start.size()),
+      masses_(masses.begin(), masses.end()),
       spheres_(start.size()),
       images_(start.size()),
       grid_(start.box, start.box.shortest(), 0),
-      references_(start.size()),
+      shell_of_(start.size()),
       list_sizes_(start.size(), 0),
       calendar_(start.size(), table),
       events_(start.size()),
       collisions_of_(start.size(), 0) {
+  std::iota(slot_of_.begin(), slot_of_.end(), 0U);
   for (std::size_t i = 0; i < size(); ++i)
     spheres_[i] = {start.positions[3 * i], start.positions[3 * i + 1], start.positions[3 * i + 2], 0.0, 0.0, 0.0, 0.0,
                    start.radii[i]};
@@ -54,25 +60,26 @@ EventDriven::EventDriven(const Configuration& start, std::vector<double> masses,
 }
 
 void EventDriven::draw_velocities(std::uint64_t seed) {
-  draw_maxwell_velocities(particles_of(spheres_, masses_), [](double mass) { return 1.0 / std::sqrt(mass); }, seed);
+  draw_maxwell_velocities(particles_of(spheres_, masses_, slot_of_), [](double mass) { return 1.0 / std::sqrt(mass); }, seed);
   rescale();
 }
 
 void EventDriven::set_velocities(const std::vector<double>& velocities) {
   resynchronise();
   for (std::size_t i = 0; i < size(); ++i) {
-    spheres_[i].vx = velocities[3 * i];
-    spheres_[i].vy = velocities[3 * i + 1];
-    spheres_[i].vz = velocities[3 * i + 2];
+    auto& s = spheres_[slot_of_[i]];
+    s.vx = velocities[3 * i];
+    s.vy = velocities[3 * i + 1];
+    s.vz = velocities[3 * i + 2];
   }
   make_calendar();
 }
 
-Point EventDriven::momentum() const { return total_momentum(particles_of(spheres_, masses_)); }
+Point EventDriven::momentum() const { return total_momentum(particles_of(spheres_, masses_, slot_of_)); }
 
 double EventDriven::kinetic_energy() const {
   double sum = 0.0;
-  for (std::size_t i = 0; i < size(); ++i) {
+  for (const std::uint32_t i : slot_of_) {
     const auto& s = spheres_[i];
     sum += 0.5 * masses_[i] * (s.vx * s.vx + s.vy * s.vy + s.vz * s.vz);
   }
@@ -81,7 +88,7 @@ double EventDriven::kinetic_energy() const {
 
 void EventDriven::rescale() {
   resynchronise();
-  remove_momentum(particles_of(spheres_, masses_));
+  remove_momentum(particles_of(spheres_, masses_, slot_of_));
   const double kinetic = kinetic_energy();
   if (kinetic > 0.0) {
     const double factor = std::sqrt(1.5 * static_cast<double>(size()) / kinetic);
@@ -103,11 +110,12 @@ double EventDriven::compressibility(double virial_before, double time_before) co
 void EventDriven::positions_at(double now, std::vector<double>& out) const {
   out.resize(3 * size());
   for (std::size_t i = 0; i < size(); ++i) {
-    const auto& s = spheres_[i];
+    const auto& s = spheres_[slot_of_[i]];
+    const Point& image = images_[slot_of_[i]];
     const double flown = now - s.time;
-    out[3 * i] = s.x + s.vx * flown + images_[i][0] * box_.length[0];
-    out[3 * i + 1] = s.y + s.vy * flown + images_[i][1] * box_.length[1];
-    out[3 * i + 2] = s.z + s.vz * flown + images_[i][2] * box_.length[2];
+    out[3 * i] = s.x + s.vx * flown + image[0] * box_.length[0];
+    out[3 * i + 1] = s.y + s.vy * flown + image[1] * box_.length[1];
+    out[3 * i + 2] = s.z + s.vz * flown + image[2] * box_.length[2];
   }
 }
 
@@ -122,7 +130,8 @@ std::vector<double> EventDriven::positions() const {
 
 std::vector<double> EventDriven::velocities() const {
   std::vector<double> out;
-  for (const auto& s : spheres_) out.insert(out.end(), {s.vx, s.vy, s.vz});
+  out.reserve(3 * size());
+  for (const std::uint32_t i : slot_of_) out.insert(out.end(), {spheres_[i].vx, spheres_[i].vy, spheres_[i].vz});
   return out;
 }
 
@@ -160,20 +169,39 @@ void EventDriven::resynchronise() {
   largest_radius_ *= swell();
   time_base_ += now_;
   now_ = 0.0;
+  if (size() >= large_from) sort_in_space();
   choose_shell();
   make_lists();
   make_calendar();
   fresh_ = true;
 }
 
+// Spheres near in space come near in memory. The order follows from the positions alone, so that it is the same after a resumption.
+void EventDriven::sort_in_space() {
+  std::vector<double> wrapped(3 * size());
+  for (std::size_t i = 0; i < size(); ++i) std::copy_n(&spheres_[slot_of_[i]].x, 3, &wrapped[3 * i]);
+  const auto order = order_in_space(wrapped, box_);
+  const auto sorted = [&](auto& array) {
+    std::remove_reference_t<decltype(array)> moved(size());
+    for (std::size_t s = 0; s < size(); ++s) moved[s] = array[slot_of_[order[s]]];
+    array.swap(moved);
+  };
+  sorted(spheres_);
+  sorted(masses_);
+  sorted(images_);
+  for (std::size_t s = 0; s < size(); ++s) slot_of_[order[s]] = static_cast<std::uint32_t>(s);
+}
+
 void EventDriven::make_calendar() {
   std::vector<double> times(size());
   for (std::size_t i = 0; i < size(); ++i) times[i] = predict(i);
   calendar_.assign(times);
+  outlook_ = Outlook{0, now_, outlook_.interval, now_, {}, {}};
 }
 
 bool EventDriven::next_event() {
   fresh_ = false;
+  if (size() >= large_from && outlook_.events_left-- == 0) look_ahead();
   const std::size_t i = calendar_.first();
   if (calendar_.first_time() > horizon_) {
     now_ = horizon_;
@@ -225,8 +253,10 @@ Configuration EventDriven::configuration() const {
 void EventDriven::exchange(Archive& archive) {
   AlignedArray spheres(8 * size());
   std::vector<double> images(3 * size());
-  std::copy_n(&spheres_[0].x, 8 * size(), spheres.begin());
-  for (std::size_t i = 0; i < size(); ++i) std::copy_n(images_[i].begin(), 3, images.begin() + static_cast<std::ptrdiff_t>(3 * i));
+  for (std::size_t i = 0; i < size(); ++i) {
+    std::copy_n(&spheres_[slot_of_[i]].x, 8, &spheres[8 * i]);
+    std::copy_n(images_[slot_of_[i]].begin(), 3, &images[3 * i]);
+  }
   archive.field("spheres", spheres);
   archive.field("images", images);
   archive.field("time", time_base_);
@@ -235,8 +265,10 @@ void EventDriven::exchange(Archive& archive) {
   if (!archive.reading()) return;
   if (spheres.size() != 8 * size() || images.size() != 3 * size())
     throw_bad_input(fmt::format("the state does not hold {} particles", size()));
-  std::copy_n(spheres.begin(), 8 * size(), &spheres_[0].x);
-  for (std::size_t i = 0; i < size(); ++i) std::copy_n(images.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, images_[i].begin());
+  for (std::size_t i = 0; i < size(); ++i) {
+    std::copy_n(&spheres[8 * i], 8, &spheres_[slot_of_[i]].x);
+    std::copy_n(&images[3 * i], 3, images_[slot_of_[i]].begin());
+  }
   largest_radius_ = 0.0;
   for (const auto& s : spheres_) largest_radius_ = std::max(largest_radius_, s.radius);
   now_ = 0.0;

@@ -30,7 +30,8 @@ class EventDriven {
   // Starts at rest. `masses` per particle. `growth`: relative growth of the diameters per unit of time, with respect to those at
   // the last resynchronisation. Spheres must not overlap. Throws Error(bad_input) if a box edge is shorter than 2.05 of the largest
   // diameter: a particle could then collide with two images of another.
-  EventDriven(const Configuration& start, std::vector<double> masses, const kernels::KernelTable& table, double growth = 0.0);
+  EventDriven(const Configuration& start, const std::vector<double>& masses, const kernels::KernelTable& table,
+              double growth = 0.0);
 
   // Draws velocities from Maxwell's distribution at T = 1, then calls rescale().
   void draw_velocities(std::uint64_t seed);
@@ -65,7 +66,7 @@ class EventDriven {
   // Z = 1 + virial / (3 N k_B T t), virial and t counted from `virial_before` and `time_before`.
   // k_B T = 2 K / (3 N - 3), because the total momentum is zero.
   double compressibility(double virial_before = 0.0, double time_before = 0.0) const;
-  double radius(std::size_t particle) const { return spheres_[particle].radius * (1.0 + growth_ * now_); }
+  double radius(std::size_t particle) const { return spheres_[slot_of_[particle]].radius * (1.0 + growth_ * now_); }
 
   // Unwrapped positions, 3N in the user's order: at `time`, which lies between the last event and the next, or at the last event.
   void positions(double time, std::vector<double>& out) const;
@@ -88,6 +89,8 @@ class EventDriven {
     std::int32_t partner;              // `none` if the particle leaves its shell
     std::uint32_t partner_collisions;  // the partner's collisions at the prediction; the event is stale once there are more
   };
+  // Smaller systems stay in the user's order and do not look ahead: they are in the second cache.
+  static constexpr std::size_t large_from = 10'000;
   static constexpr std::int32_t none = -1;
   static constexpr double never = std::numeric_limits<double>::infinity();
   // The nearest image of the difference d of two coordinates in the box.
@@ -96,14 +99,27 @@ class EventDriven {
     if (d < -0.5 * length) return d + length;
     return d;
   }
+  // Which events come soon, so that what they need is in the cache by then. It changes no result.
+  struct Outlook {
+    int events_left = 0;                        // until the next look
+    double time = 0.0, interval = 0.0;          // of the last look; mean time between two
+    double until = 0.0;                         // events until then have been found
+    std::vector<std::uint32_t> found, fetched;  // particles with such an event: found by the last look, and by the one before
+  };
+  // Half a cache line, so that the candidates of a list are read alone.
+  struct alignas(32) Shell {
+    Point centre;   // the position at which the list was built
+    double radius;  // of the sphere, at time 0
+  };
   // Tells whether two particles can touch before either leaves its shell. Their shells are centred in the box.
   struct Encounters {
     Box box;
     double swollen, shells;  // factor by which radii grow until the horizon; twice the shell radius [sigma]
 
-    bool possible(const Point& at, double radius, const Point& other, double other_radius) const;
+    bool possible(const Shell& shell, const Shell& other) const;
   };
 
+  void sort_in_space();
   void choose_shell();
   void make_lists();
   void make_calendar();
@@ -118,6 +134,7 @@ class EventDriven {
     s.time = now_;
   }
   void wrap(std::size_t i);
+  void renew_shell(std::size_t i) { shell_of_[i] = {{spheres_[i].x, spheres_[i].y, spheres_[i].z}, spheres_[i].radius}; }
   std::int32_t* list(std::size_t i) { return lists_.data() + i * list_capacity_; }
   Encounters encounters() const { return {box_, growth_ > 0.0 ? 1.0 + growth_ * horizon_ : 1.0, 2.0 * shell_}; }
   template <class Visit>
@@ -130,15 +147,21 @@ class EventDriven {
   // Predicts the next event of particle i and returns its time.
   double predict(std::size_t i);
   void bounce(std::size_t i, std::size_t j);
+  void look_ahead();
+  void prefetch_particle(std::size_t i) const;
+  void prefetch_neighbours(std::size_t i) const;
+  void prefetch_shells(std::size_t i) const;
   // Processes the next event. Returns true if it is a collision.
   bool next_event();
 
   const kernels::KernelTable* table_;
   Box box_;
-  std::vector<double> masses_;
   double growth_;
-  std::vector<kernels::FlyingSphere, AlignedAllocator<kernels::FlyingSphere>> spheres_;
-  std::vector<Point> images_;  // number of box edges by which each wrapped position differs from the unwrapped one
+  // All arrays are in the order of slots, which is the user's order in small systems.
+  std::vector<std::uint32_t> slot_of_;  // of each of the user's particles
+  AlignedVector<double> masses_;
+  AlignedVector<kernels::FlyingSphere> spheres_;
+  AlignedVector<Point> images_;  // number of box edges by which each wrapped position differs from the unwrapped one
   double now_ = 0.0, time_base_ = 0.0;
   std::uint64_t collisions_ = 0;
   double virial_ = 0.0;
@@ -147,13 +170,14 @@ class EventDriven {
   // The rest is derived from the above at each resynchronisation.
   double shell_ = 0.0, largest_radius_ = 0.0, horizon_ = 0.0;
   CellGrid grid_;
-  std::vector<Point> references_;  // centre of each shell: the position at which the list was built
+  AlignedVector<Shell> shell_of_;
   std::size_t list_capacity_ = 32;
-  std::vector<std::int32_t> lists_, list_sizes_;
+  AlignedVector<std::int32_t> lists_, list_sizes_;
   EventCalendar calendar_;
-  std::vector<Event> events_;
-  std::vector<std::uint32_t> collisions_of_;
+  AlignedVector<Event> events_;
+  AlignedVector<std::uint32_t> collisions_of_;
   Statistics statistics_;
+  Outlook outlook_;
 };
 
 }  // namespace lanescape

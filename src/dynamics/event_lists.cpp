@@ -16,10 +16,11 @@ constexpr double growth_per_resync = 0.01;
 
 }  // namespace
 
-inline bool EventDriven::Encounters::possible(const Point& at, double radius, const Point& other, double other_radius) const {
-  const double dx = nearest(other[0] - at[0], box.length[0]), dy = nearest(other[1] - at[1], box.length[1]),
-               dz = nearest(other[2] - at[2], box.length[2]);
-  const double reach = (radius + other_radius) * swollen + shells;
+inline bool EventDriven::Encounters::possible(const Shell& shell, const Shell& other) const {
+  const Point &at = shell.centre, &to = other.centre;
+  const double dx = nearest(to[0] - at[0], box.length[0]), dy = nearest(to[1] - at[1], box.length[1]),
+               dz = nearest(to[2] - at[2], box.length[2]);
+  const double reach = (shell.radius + other.radius) * swollen + shells;
   return dx * dx + dy * dy + dz * dz < reach * reach;
 }
 
@@ -29,7 +30,7 @@ void EventDriven::choose_shell() {
   horizon_ = growth_ > 0.0 ? growth_per_resync / growth_ : never;
   const double swollen = growth_ > 0.0 ? 1.0 + growth_per_resync : 1.0;
   double mean_radius = 0.0;
-  for (const auto& s : spheres_) mean_radius += s.radius / static_cast<double>(size());
+  for (const std::uint32_t i : slot_of_) mean_radius += spheres_[i].radius / static_cast<double>(size());
   const double per_neighbour = box_.volume() / static_cast<double>(size());
   const double reach = std::cbrt(wanted_neighbours * per_neighbour * 3.0 / (4.0 * std::numbers::pi));
   const double largest = 2.0 * largest_radius_ * swollen;
@@ -40,25 +41,22 @@ void EventDriven::choose_shell() {
 
 void EventDriven::make_lists() {
   for (std::size_t i = 0; i < size(); ++i) {
-    references_[i] = {spheres_[i].x, spheres_[i].y, spheres_[i].z};
-    grid_.insert(static_cast<std::int32_t>(i), references_[i]);
+    renew_shell(i);
+    grid_.insert(static_cast<std::int32_t>(i), shell_of_[i].centre);
   }
   lists_.assign(size() * list_capacity_, 0);
   list_sizes_.assign(size(), 0);
   // Gives the same lists as for_each_neighbour(), but works cell by cell on contiguous copies, because particles near in space may
   // be far apart in memory.
   struct Copy {
-    Point reference;
-    double radius;
+    Shell shell;
     std::int32_t particle;
   };
   std::vector<Copy> copies;
   std::vector<std::size_t> first;  // index of each cell's first copy, then the number of copies
   for (std::size_t cell = 0; cell < grid_.cells(); ++cell) {
     first.push_back(copies.size());
-    grid_.for_each_in(cell, [&](std::int32_t j) {
-      copies.push_back({references_[static_cast<std::size_t>(j)], spheres_[static_cast<std::size_t>(j)].radius, j});
-    });
+    grid_.for_each_in(cell, [&](std::int32_t j) { copies.push_back({shell_of_[static_cast<std::size_t>(j)], j}); });
   }
   first.push_back(copies.size());
   const Encounters encounters = this->encounters();
@@ -68,8 +66,7 @@ void EventDriven::make_lists() {
       found.clear();
       for (const std::uint32_t other : grid_.cells_near(cell))
         for (std::size_t k = first[other]; k < first[other + 1]; ++k)
-          if (encounters.possible(copies[self].reference, copies[self].radius, copies[k].reference, copies[k].radius) && k != self)
-            found.push_back(copies[k].particle);
+          if (encounters.possible(copies[self].shell, copies[k].shell) && k != self) found.push_back(copies[k].particle);
       const auto i = static_cast<std::size_t>(copies[self].particle);
       while (found.size() > list_capacity_) grow_lists();
       std::copy(found.begin(), found.end(), list(i));
@@ -81,16 +78,16 @@ void EventDriven::make_lists() {
 template <class Visit>
 void EventDriven::for_each_neighbour(std::size_t i, Visit visit) {
   const Encounters encounters = this->encounters();
-  const auto& at = references_[i];
-  grid_.for_each_near(at, [&](std::int32_t candidate) {
+  const Shell& own = shell_of_[i];
+  grid_.for_each_near(own.centre, [&](std::int32_t candidate) {
     const auto j = static_cast<std::size_t>(candidate);
-    if (encounters.possible(at, spheres_[i].radius, references_[j], spheres_[j].radius) && i != j) visit(candidate);
+    if (encounters.possible(own, shell_of_[j]) && i != j) visit(candidate);
   });
 }
 
 void EventDriven::grow_lists() {
   const std::size_t capacity = list_capacity_ + 16;
-  std::vector<std::int32_t> lists(size() * capacity, 0);
+  AlignedVector<std::int32_t> lists(size() * capacity, 0);
   for (std::size_t i = 0; i < size(); ++i) std::copy_n(list(i), list_sizes_[i], lists.data() + i * capacity);
   lists_.swap(lists);
   list_capacity_ = capacity;
@@ -111,9 +108,9 @@ void EventDriven::remove(std::size_t i, std::int32_t neighbour) {
 void EventDriven::rebuild_list(std::size_t i) {
   bring_to_now(i);
   wrap(i);
-  references_[i] = {spheres_[i].x, spheres_[i].y, spheres_[i].z};
+  renew_shell(i);
   const auto self = static_cast<std::int32_t>(i);
-  grid_.move(self, references_[i]);
+  grid_.move(self, shell_of_[i].centre);
   for (std::int32_t k = 0; k < list_sizes_[i]; ++k) remove(static_cast<std::size_t>(list(i)[k]), self);
   list_sizes_[i] = 0;
   for_each_neighbour(i, [&](std::int32_t j) {

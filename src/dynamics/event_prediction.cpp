@@ -9,7 +9,7 @@ namespace lanescape {
 // The time at which particle i leaves its shell if it does not collide before.
 double EventDriven::shell_exit(std::size_t i) const {
   const auto& s = spheres_[i];
-  const auto& at = references_[i];
+  const auto& at = shell_of_[i].centre;
   const double flown = now_ - s.time;
   const auto from_reference = [&](double x, double v, double reference, double length) {
     return nearest(x + v * flown - reference, length);

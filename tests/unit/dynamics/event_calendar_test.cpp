@@ -52,6 +52,26 @@ TEST(EventCalendar, GivesTiesToTheLowestNumberWhateverTheOrderOfUpdates) {
   }
 }
 
+std::vector<std::size_t> seen_between(const EventCalendar& calendar, double after, double until) {
+  std::vector<std::size_t> seen;
+  calendar.for_most_between(after, until, [&](std::size_t event) { seen.push_back(event); });
+  return seen;
+}
+
+TEST(EventCalendar, SeesAllEventsOfAStretchOfTimeIfTheyAreFew) {
+  EventCalendar calendar(300, best_table());
+  for (std::size_t k = 0; k < 300; ++k) calendar.update(k, static_cast<double>(k));
+  EXPECT_EQ(seen_between(calendar, 20.0, 23.0), (std::vector<std::size_t>{21, 22, 23}));
+}
+
+// 10,000 events: 40 entries at the level that is looked at, and below it 625 blocks of 16 events.
+TEST(EventCalendar, SeesTheEarliestOfEachBlockOfManyEvents) {
+  EventCalendar calendar(10'000, best_table());
+  for (std::size_t k = 0; k < 10'000; ++k) calendar.update(k, static_cast<double>(k));
+  EXPECT_EQ(seen_between(calendar, -1.0, 34.0), (std::vector<std::size_t>{0, 16, 32}));
+  EXPECT_EQ(seen_between(calendar, 0.0, 34.0), (std::vector<std::size_t>{16, 32}));
+}
+
 TEST(EventCalendar, HoldsASingleEvent) {
   EventCalendar calendar(1, best_table());
   calendar.update(0, 3.0);
