@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <type_traits>
+#include <utility>
 
-#include "configuration/particle_layout.hpp"
 #include "core/error.hpp"
 #include "core/float_environment.hpp"
 #include "dynamics/maxwell.hpp"
@@ -169,27 +168,32 @@ void EventDriven::resynchronise() {
   largest_radius_ *= swell();
   time_base_ += now_;
   now_ = 0.0;
-  if (size() >= large_from) sort_in_space();
   choose_shell();
+  if (size() >= large_from) sort_in_space();
   make_lists();
   make_calendar();
   fresh_ = true;
 }
 
-// Spheres near in space come near in memory. The order follows from the positions alone, so that it is the same after a resumption.
+// Spheres near in space come near in memory: by cells of the grid, then by the user's numbers. So the order follows from the
+// positions alone, and is the same after a resumption.
 void EventDriven::sort_in_space() {
-  std::vector<double> wrapped(3 * size());
-  for (std::size_t i = 0; i < size(); ++i) std::copy_n(&spheres_[slot_of_[i]].x, 3, &wrapped[3 * i]);
-  const auto order = order_in_space(wrapped, box_);
-  const auto sorted = [&](auto& array) {
-    std::remove_reference_t<decltype(array)> moved(size());
-    for (std::size_t s = 0; s < size(); ++s) moved[s] = array[slot_of_[order[s]]];
-    array.swap(moved);
-  };
-  sorted(spheres_);
-  sorted(masses_);
-  sorted(images_);
-  for (std::size_t s = 0; s < size(); ++s) slot_of_[order[s]] = static_cast<std::uint32_t>(s);
+  std::vector<std::uint32_t> next(grid_.cells() + 1, 0), cell_of(size()), target(size());
+  for (std::size_t i = 0; i < size(); ++i) {
+    const auto& s = spheres_[i];
+    cell_of[i] = static_cast<std::uint32_t>(grid_.cell_of({s.x, s.y, s.z}));
+    ++next[cell_of[i] + 1];
+  }
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  for (std::uint32_t& slot : slot_of_) slot = target[slot] = next[cell_of[slot]]++;
+  for (std::uint32_t i = 0; i < size(); ++i)
+    while (target[i] != i) {
+      const std::uint32_t to = target[i];
+      std::swap(spheres_[i], spheres_[to]);
+      std::swap(masses_[i], masses_[to]);
+      std::swap(images_[i], images_[to]);
+      std::swap(target[i], target[to]);
+    }
 }
 
 void EventDriven::make_calendar() {

@@ -170,6 +170,7 @@ class EventDriven {
   // The rest is derived from the above at each resynchronisation.
   double shell_ = 0.0, largest_radius_ = 0.0, horizon_ = 0.0;
   CellGrid grid_;
+  double shortest_cell_ = 0.0;  // edge for which the grid was made
   AlignedVector<Shell> shell_of_;
   std::size_t list_capacity_ = 32;
   AlignedVector<std::int32_t> lists_, list_sizes_;

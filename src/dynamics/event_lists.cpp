@@ -36,42 +36,57 @@ void EventDriven::choose_shell() {
   const double largest = 2.0 * largest_radius_ * swollen;
   const double allowed = 0.25 * (0.5 * box_.shortest() - largest);
   shell_ = std::min(allowed, std::max(0.05 * largest, 0.5 * (reach - 2.0 * mean_radius * swollen)));
-  grid_ = CellGrid(box_, largest + 2.0 * shell_, size());
+  if (const double edge = largest + 2.0 * shell_; edge != shortest_cell_) {
+    grid_ = CellGrid(box_, edge, size());
+    shortest_cell_ = edge;
+  }
 }
 
 void EventDriven::make_lists() {
+  grid_.clear();
   for (std::size_t i = 0; i < size(); ++i) {
     renew_shell(i);
     grid_.insert(static_cast<std::int32_t>(i), shell_of_[i].centre);
   }
   lists_.assign(size() * list_capacity_, 0);
   list_sizes_.assign(size(), 0);
-  // Gives the same lists as for_each_neighbour(), but works cell by cell on contiguous copies, because particles near in space may
-  // be far apart in memory.
+  // Gives the same lists as for_each_neighbour(), in another order: looks at each pair once, on copies that are contiguous cell by
+  // cell.
   struct Copy {
     Shell shell;
     std::int32_t particle;
   };
-  std::vector<Copy> copies;
+  AlignedVector<Copy> copies;
+  copies.reserve(size());
   std::vector<std::size_t> first;  // index of each cell's first copy, then the number of copies
+  first.reserve(grid_.cells() + 1);
   for (std::size_t cell = 0; cell < grid_.cells(); ++cell) {
     first.push_back(copies.size());
     grid_.for_each_in(cell, [&](std::int32_t j) { copies.push_back({shell_of_[static_cast<std::size_t>(j)], j}); });
   }
   first.push_back(copies.size());
   const Encounters encounters = this->encounters();
-  std::vector<std::int32_t> found;
-  for (std::size_t cell = 0; cell < grid_.cells(); ++cell)
+  std::vector<std::int32_t> found(size());
+  for (std::size_t cell = 0; cell < grid_.cells(); ++cell) {
+    if (first[cell] == first[cell + 1]) continue;
+    const CellGrid::NearCells near = grid_.cells_near(cell);
     for (std::size_t self = first[cell]; self < first[cell + 1]; ++self) {
-      found.clear();
-      for (const std::uint32_t other : grid_.cells_near(cell))
-        for (std::size_t k = first[other]; k < first[other + 1]; ++k)
-          if (encounters.possible(copies[self].shell, copies[k].shell) && k != self) found.push_back(copies[k].particle);
-      const auto i = static_cast<std::size_t>(copies[self].particle);
-      while (found.size() > list_capacity_) grow_lists();
-      std::copy(found.begin(), found.end(), list(i));
-      list_sizes_[i] = static_cast<std::int32_t>(found.size());
+      std::size_t count = 0;
+      const auto find = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+          found[count] = copies[k].particle;
+          count += encounters.possible(copies[self].shell, copies[k].shell);  // a branch would often be predicted wrongly
+        }
+      };
+      find(self + 1, first[cell + 1]);
+      for (const std::uint32_t other : near.all())
+        if (other > cell) find(first[other], first[other + 1]);
+      for (std::size_t k = 0; k < count; ++k) {
+        append(static_cast<std::size_t>(copies[self].particle), found[k]);
+        append(static_cast<std::size_t>(found[k]), copies[self].particle);
+      }
     }
+  }
 }
 
 // Calls visit(j) for each particle that can touch particle i before either leaves its shell.

@@ -26,14 +26,12 @@ constexpr std::int32_t neighbours_per_line = 16;
   for (std::int32_t k = 0; k < list_sizes_[i]; ++k) prefetch(&spheres_[static_cast<std::size_t>(neighbours[k])]);
 }
 
-// What particle i needs to leave its shell.
+// What particle i needs to leave its shell: the lists that it is on, and the candidates for its own.
 [[gnu::always_inline]] inline void EventDriven::prefetch_shells(std::size_t i) const {
   const std::int32_t* const neighbours = &lists_[i * list_capacity_];
-  for (std::int32_t k = 0; k < list_sizes_[i]; ++k) {
-    const auto j = static_cast<std::size_t>(neighbours[k]);
-    prefetch(&lists_[j * list_capacity_]);
-    prefetch(&shell_of_[j]);
-  }
+  for (std::int32_t k = 0; k < list_sizes_[i]; ++k) prefetch(&lists_[static_cast<std::size_t>(neighbours[k]) * list_capacity_]);
+  grid_.for_each_near(shell_of_[i].centre,
+                      [&](std::int32_t j) __attribute__((always_inline)) { prefetch(&shell_of_[static_cast<std::size_t>(j)]); });
 }
 
 // Each look finds the events of a stretch of time and fetches their particles. The next look can read from these who collides with
@@ -49,7 +47,12 @@ void EventDriven::look_ahead() {
   }
   for (const std::uint32_t i : outlook_.found) {
     if (list_sizes_[i] > neighbours_per_line) prefetch(&lists_[i * list_capacity_ + neighbours_per_line]);
-    if (events_[i].partner != none) prefetch_particle(static_cast<std::size_t>(events_[i].partner));
+    if (events_[i].partner != none)
+      prefetch_particle(static_cast<std::size_t>(events_[i].partner));
+    else {
+      const CellGrid::NearCells near = grid_.cells_near(grid_.cell_with(i));
+      for (const std::uint32_t cell : near.all()) grid_.prefetch(cell);
+    }
   }
   outlook_.fetched.swap(outlook_.found);
   outlook_.found.clear();

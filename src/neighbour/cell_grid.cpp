@@ -10,31 +10,36 @@ CellGrid::CellGrid(const Box& box, double shortest_edge, std::size_t particles)
   // Many more cells than particles would cost memory and gain nothing. Cells are cubes as nearly as they can be. Rounding must not
   // take a cell away where the number is whole.
   const double most_per_edge = 2.0 * std::cbrt(static_cast<double>(particles) / box.volume()) * (1.0 + 1e-12);
-  std::array<std::size_t, 3> reach{};  // cells to each side
-  around_ = 1;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double most = std::max(3.0, std::min(most_per_edge * box.length[axis], static_cast<double>(particles)));
     cells_[axis] = static_cast<std::size_t>(std::min(box.length[axis] / shortest_edge, most));
     if (cells_[axis] < 3) cells_[axis] = 1;
-    reach[axis] = cells_[axis] == 1 ? 0 : 1;
-    around_ *= 2 * reach[axis] + 1;
     cells_per_length_[axis] = static_cast<double>(cells_[axis]) / box.length[axis];
   }
-  const std::size_t count = cells_[0] * cells_[1] * cells_[2];
-  first_.assign(count, -1);
-  neighbours_.reserve(count * around_);
-  for (std::size_t x = 0; x < cells_[0]; ++x)
-    for (std::size_t y = 0; y < cells_[1]; ++y)
-      for (std::size_t z = 0; z < cells_[2]; ++z)
-        for (std::size_t dx = 0; dx <= 2 * reach[0]; ++dx)
-          for (std::size_t dy = 0; dy <= 2 * reach[1]; ++dy)
-            for (std::size_t dz = 0; dz <= 2 * reach[2]; ++dz) {
-              const auto wrapped = [&](std::size_t c, std::size_t d, std::size_t axis) {
-                return (c + cells_[axis] + d - reach[axis]) % cells_[axis];
-              };
-              neighbours_.push_back(
-                  static_cast<std::uint32_t>((wrapped(x, dx, 0) * cells_[1] + wrapped(y, dy, 1)) * cells_[2] + wrapped(z, dz, 2)));
-            }
+  first_.assign(cells_[0] * cells_[1] * cells_[2], -1);
+}
+
+void CellGrid::clear() { std::fill(first_.begin(), first_.end(), -1); }
+
+CellGrid::NearCells CellGrid::cells_near(std::size_t cell) const {
+  const std::array<std::size_t, 3> at = {cell / (cells_[1] * cells_[2]), cell / cells_[2] % cells_[1], cell % cells_[2]};
+  std::array<std::array<std::size_t, 3>, 3> near{};  // per axis: the coordinate before, the cell's own, and the one after
+  std::array<std::size_t, 3> count{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t c = at[axis], cells = cells_[axis];
+    if (cells == 1) {
+      count[axis] = 1;
+    } else {
+      near[axis] = {(c == 0 ? cells : c) - 1, c, c + 1 == cells ? 0 : c + 1};
+      count[axis] = 3;
+    }
+  }
+  NearCells found;
+  for (std::size_t x = 0; x < count[0]; ++x)
+    for (std::size_t y = 0; y < count[1]; ++y)
+      for (std::size_t z = 0; z < count[2]; ++z)
+        found.cells[found.count++] = static_cast<std::uint32_t>((near[0][x] * cells_[1] + near[1][y]) * cells_[2] + near[2][z]);
+  return found;
 }
 
 std::size_t CellGrid::cell_of(const std::array<double, 3>& position) const {
