@@ -41,6 +41,7 @@ EventDriven::EventDriven(const Configuration& start, const std::vector<double>& 
       grid_(start.box, start.box.shortest(), 0),
       shell_of_(start.size()),
       list_sizes_(start.size(), 0),
+      found_(start.size()),
       calendar_(start.size(), table),
       events_(start.size()),
       collisions_of_(start.size(), 0) {

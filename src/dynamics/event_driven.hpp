@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -93,12 +94,8 @@ class EventDriven {
   static constexpr std::size_t large_from = 10'000;
   static constexpr std::int32_t none = -1;
   static constexpr double never = std::numeric_limits<double>::infinity();
-  // The nearest image of the difference d of two coordinates in the box.
-  static double nearest(double d, double length) {
-    if (d > 0.5 * length) return d - length;
-    if (d < -0.5 * length) return d + length;
-    return d;
-  }
+  // The nearest image of the difference d of two coordinates in the box, without a branch, which would often be predicted wrongly.
+  static double nearest(double d, double length) { return d - std::copysign(std::fabs(d) > 0.5 * length ? length : 0.0, d); }
   // Which events come soon, so that what they need is in the cache by then. It changes no result.
   struct Outlook {
     int events_left = 0;                        // until the next look
@@ -137,8 +134,7 @@ class EventDriven {
   void renew_shell(std::size_t i) { shell_of_[i] = {{spheres_[i].x, spheres_[i].y, spheres_[i].z}, spheres_[i].radius}; }
   std::int32_t* list(std::size_t i) { return lists_.data() + i * list_capacity_; }
   Encounters encounters() const { return {box_, growth_ > 0.0 ? 1.0 + growth_ * horizon_ : 1.0, 2.0 * shell_}; }
-  template <class Visit>
-  void for_each_neighbour(std::size_t i, Visit visit);
+  std::size_t find_neighbours(std::size_t i);
   void append(std::size_t i, std::int32_t neighbour);
   void remove(std::size_t i, std::int32_t neighbour);
   void grow_lists();
@@ -174,6 +170,7 @@ class EventDriven {
   AlignedVector<Shell> shell_of_;
   std::size_t list_capacity_ = 32;
   AlignedVector<std::int32_t> lists_, list_sizes_;
+  std::vector<std::int32_t> found_;  // scratch memory, one for each particle
   EventCalendar calendar_;
   AlignedVector<Event> events_;
   AlignedVector<std::uint32_t> collisions_of_;

@@ -50,7 +50,7 @@ void EventDriven::make_lists() {
   }
   lists_.assign(size() * list_capacity_, 0);
   list_sizes_.assign(size(), 0);
-  // Gives the same lists as for_each_neighbour(), in another order: looks at each pair once, on copies that are contiguous cell by
+  // Gives the same lists as find_neighbours(), in another order: looks at each pair once, on copies that are contiguous cell by
   // cell.
   struct Copy {
     Shell shell;
@@ -66,7 +66,6 @@ void EventDriven::make_lists() {
   }
   first.push_back(copies.size());
   const Encounters encounters = this->encounters();
-  std::vector<std::int32_t> found(size());
   for (std::size_t cell = 0; cell < grid_.cells(); ++cell) {
     if (first[cell] == first[cell + 1]) continue;
     const CellGrid::NearCells near = grid_.cells_near(cell);
@@ -74,7 +73,7 @@ void EventDriven::make_lists() {
       std::size_t count = 0;
       const auto find = [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
-          found[count] = copies[k].particle;
+          found_[count] = copies[k].particle;
           count += encounters.possible(copies[self].shell, copies[k].shell);  // a branch would often be predicted wrongly
         }
       };
@@ -82,22 +81,25 @@ void EventDriven::make_lists() {
       for (const std::uint32_t other : near.all())
         if (other > cell) find(first[other], first[other + 1]);
       for (std::size_t k = 0; k < count; ++k) {
-        append(static_cast<std::size_t>(copies[self].particle), found[k]);
-        append(static_cast<std::size_t>(found[k]), copies[self].particle);
+        append(static_cast<std::size_t>(copies[self].particle), found_[k]);
+        append(static_cast<std::size_t>(found_[k]), copies[self].particle);
       }
     }
   }
 }
 
-// Calls visit(j) for each particle that can touch particle i before either leaves its shell.
-template <class Visit>
-void EventDriven::for_each_neighbour(std::size_t i, Visit visit) {
+// Puts into found_ each particle that can touch particle i before either leaves its shell. Returns their number.
+std::size_t EventDriven::find_neighbours(std::size_t i) {
   const Encounters encounters = this->encounters();
-  const Shell& own = shell_of_[i];
+  const Shell own = shell_of_[i];
+  std::int32_t* const found = found_.data();
+  std::size_t count = 0;
   grid_.for_each_near(own.centre, [&](std::int32_t candidate) {
     const auto j = static_cast<std::size_t>(candidate);
-    if (encounters.possible(own, shell_of_[j]) && i != j) visit(candidate);
+    found[count] = candidate;
+    count += static_cast<std::size_t>(encounters.possible(own, shell_of_[j]) & (i != j));
   });
+  return count;
 }
 
 void EventDriven::grow_lists() {
@@ -128,10 +130,11 @@ void EventDriven::rebuild_list(std::size_t i) {
   grid_.move(self, shell_of_[i].centre);
   for (std::int32_t k = 0; k < list_sizes_[i]; ++k) remove(static_cast<std::size_t>(list(i)[k]), self);
   list_sizes_[i] = 0;
-  for_each_neighbour(i, [&](std::int32_t j) {
-    append(i, j);
-    append(static_cast<std::size_t>(j), self);
-  });
+  const std::size_t count = find_neighbours(i);
+  for (std::size_t k = 0; k < count; ++k) {
+    append(i, found_[k]);
+    append(static_cast<std::size_t>(found_[k]), self);
+  }
 }
 
 }  // namespace lanescape
