@@ -5,7 +5,7 @@
 namespace lanescape {
 namespace {
 
-constexpr int events_per_look = 4;
+constexpr int events_per_look = 12;
 constexpr double looks_ahead = 3.5;  // two looks fetch more of what an event needs before it comes
 constexpr std::int32_t neighbours_per_line = 16;
 
