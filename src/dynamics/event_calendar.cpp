@@ -8,7 +8,6 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr std::size_t block = kernels::calendar_block;
-constexpr std::size_t most_scanned = 256;  // entries of which all are looked at to see what comes next
 
 }  // namespace
 

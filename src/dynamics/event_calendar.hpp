@@ -26,12 +26,24 @@ class EventCalendar {
   // Calls visit(event) for events after `after` and not after `until`. Only the earliest of each of some hundred blocks is seen.
   template <class Visit>
   void for_most_between(double after, double until, Visit visit) const {
-    const double *const blocks = view_.times[scanned_], *const entries = view_.times[scanned_ - 1];
+    // Branches on times would often be predicted wrongly: hits are counted instead.
+    std::array<std::size_t, most_scanned> near;
+    std::size_t blocks = 0;
     for (std::size_t b = 0; b < times_[scanned_].size(); ++b) {
-      if (blocks[b] > until) continue;
-      for (std::size_t k = b * kernels::calendar_block; k < (b + 1) * kernels::calendar_block; ++k)
-        if (entries[k] <= until && entries[k] > after)
-          visit(scanned_ > 1 ? static_cast<std::size_t>(view_.winners[scanned_ - 1][k]) : k);
+      near[blocks] = b;
+      blocks += view_.times[scanned_][b] <= until;
+    }
+    const double* const entries = view_.times[scanned_ - 1];
+    for (std::size_t n = 0; n < blocks; ++n) {
+      const std::size_t first = near[n] * kernels::calendar_block;
+      std::array<std::size_t, kernels::calendar_block> hits;
+      std::size_t count = 0;
+      for (std::size_t k = first; k < first + kernels::calendar_block; ++k) {
+        hits[count] = k;
+        count += static_cast<std::size_t>(entries[k] <= until) & static_cast<std::size_t>(entries[k] > after);
+      }
+      for (std::size_t h = 0; h < count; ++h)
+        visit(scanned_ > 1 ? static_cast<std::size_t>(view_.winners[scanned_ - 1][hits[h]]) : hits[h]);
     }
   }
   // Fetches into the cache what an update of this event reads first.
@@ -45,12 +57,13 @@ class EventCalendar {
 
  private:
   static constexpr std::size_t doubles_per_line = 8;
+  static constexpr std::size_t most_scanned = 256;  // entries of a level that are all looked at to see what comes next
 
   const kernels::KernelTable* table_;
   std::vector<AlignedArray> times_;
   std::vector<std::vector<std::int32_t>> winners_;
   kernels::CalendarView view_{};
-  std::size_t scanned_ = 1;  // level of few hundred entries
+  std::size_t scanned_ = 1;  // the lowest such level above the events
 };
 
 }  // namespace lanescape
