@@ -4,7 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,9 +19,29 @@ namespace lanescape::bench {
 namespace {
 
 constexpr std::uint64_t checked_collisions = 200'000, timed_collisions = 1'000'000;
+constexpr std::uint64_t most_before_timing = 2'000'000;
+constexpr std::size_t largest_grown = 4000;
+
+// A liquid of `times`^3 copies of a smaller one, which velocities make different, with particles in random order: after long runs
+// neighbours are not near in the user's order.
+Configuration large_liquid(const HardSphereModel& model, std::size_t times, double packing_fraction) {
+  const Configuration whole = repeated(hard_liquid(model, largest_grown, packing_fraction), times);
+  std::vector<std::size_t> order(whole.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), std::mt19937_64(1));
+  Configuration mixed = whole;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    mixed.radii[i] = whole.radii[order[i]];
+    std::copy_n(&whole.positions[3 * order[i]], 3, &mixed.positions[3 * i]);
+  }
+  return mixed;
+}
 
 EventDriven start(const HardSphereModel& model, std::size_t particles, double packing_fraction, Isa isa) {
-  EventDriven dynamics(hard_liquid(model, particles, packing_fraction), std::vector<double>(particles, 1.0), kernel_table(isa));
+  const auto times = static_cast<std::size_t>(std::lround(std::cbrt(static_cast<double>(particles) / largest_grown)));
+  EventDriven dynamics(
+      particles > largest_grown ? large_liquid(model, times, packing_fraction) : hard_liquid(model, particles, packing_fraction),
+      std::vector<double>(particles, 1.0), kernel_table(isa));
   dynamics.draw_velocities(2);
   return dynamics;
 }
@@ -48,7 +71,7 @@ void collide(benchmark::State& state, const HardSphereModel& model, std::size_t 
   if (const std::string wrong = check(model, particles, packing_fraction, isa); !wrong.empty())
     return state.SkipWithError(wrong.c_str());
   EventDriven dynamics = start(model, particles, packing_fraction, isa);
-  for (std::uint64_t k = 0; k < 50 * particles; ++k) dynamics.collide();
+  for (std::uint64_t k = 0; k < std::min<std::uint64_t>(50 * particles, most_before_timing); ++k) dynamics.collide();
   const auto before = dynamics.statistics();
   for (auto _ : state)
     for (std::uint64_t k = 0; k < timed_collisions; ++k) dynamics.collide();
@@ -68,6 +91,7 @@ void register_all() {
     double packing_fraction;
   };
   for (const Case& c : {Case{"mono", hard_sphere(), 108, 0.49}, Case{"mono", hard_sphere(), 4000, 0.49},
+                        Case{"mono", hard_sphere(), 32'000, 0.45}, Case{"mono", hard_sphere(), 256'000, 0.45},
                         Case{"binary", hard_sphere_binary(), 4000, 0.55}, Case{"binary", hard_sphere_binary(), 108, 0.57}})
     for (const Isa isa : available_isas())
       benchmark::RegisterBenchmark(

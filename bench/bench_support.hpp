@@ -59,6 +59,7 @@ inline Configuration repeated(const Configuration& base, std::size_t times) {
   for (std::size_t cell = 0; cell < times * times * times; ++cell) {
     const std::array<std::size_t, 3> at = {cell / (times * times), cell / times % times, cell % times};
     whole.species.insert(whole.species.end(), base.species.begin(), base.species.end());
+    whole.radii.insert(whole.radii.end(), base.radii.begin(), base.radii.end());
     for (std::size_t k = 0; k < base.positions.size(); ++k)
       whole.positions.push_back(base.positions[k] + static_cast<double>(at[k % 3]) * base.box.length[k % 3]);
   }

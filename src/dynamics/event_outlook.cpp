@@ -23,7 +23,10 @@ constexpr std::int32_t neighbours_per_line = 16;
 
 [[gnu::always_inline]] inline void EventDriven::prefetch_neighbours(std::size_t i) const {
   const std::int32_t* const neighbours = &lists_[i * list_capacity_];
-  for (std::int32_t k = 0; k < list_sizes_[i]; ++k) prefetch(&spheres_[static_cast<std::size_t>(neighbours[k])]);
+  for (std::int32_t k = 0; k < list_sizes_[i]; ++k) {
+    prefetch(&spheres_[static_cast<std::size_t>(neighbours[k])]);
+    prefetch(&collisions_of_[static_cast<std::size_t>(neighbours[k])]);
+  }
 }
 
 // What particle i needs to leave its shell: the lists that it is on, and the candidates for its own.
