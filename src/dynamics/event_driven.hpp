@@ -108,6 +108,15 @@ class EventDriven {
     Point centre;   // the position at which the list was built
     double radius;  // of the sphere, at time 0
   };
+  // Copies of all shells, contiguous cell by cell.
+  struct ShellsByCell {
+    struct Copy {
+      Shell shell;
+      std::int32_t particle;
+    };
+    AlignedVector<Copy> all;
+    std::vector<std::size_t> first;  // index of each cell's first shell, then the number of shells
+  };
   // Tells whether two particles can touch before either leaves its shell. Their shells are centred in the box.
   struct Encounters {
     Box box;
@@ -118,6 +127,7 @@ class EventDriven {
 
   void sort_in_space();
   void choose_shell();
+  ShellsByCell shells_by_cell() const;
   void make_lists();
   void make_calendar();
   void positions_at(double now, std::vector<double>& out) const;

@@ -44,6 +44,19 @@ void EventDriven::choose_shell() {
   }
 }
 
+EventDriven::ShellsByCell EventDriven::shells_by_cell() const {
+  ShellsByCell shells;
+  shells.all.reserve(size());
+  shells.first.reserve(grid_.cells() + 1);
+  for (std::size_t cell = 0; cell < grid_.cells(); ++cell) {
+    shells.first.push_back(shells.all.size());
+    grid_.for_each_in(cell, [&](std::int32_t j) { shells.all.push_back({shell_of_[static_cast<std::size_t>(j)], j}); });
+  }
+  shells.first.push_back(shells.all.size());
+  return shells;
+}
+
+// Gives the same lists as find_neighbours(), in another order: looks at each pair once.
 void EventDriven::make_lists() {
   grid_.clear();
   for (std::size_t i = 0; i < size(); ++i) {
@@ -52,39 +65,25 @@ void EventDriven::make_lists() {
   }
   lists_.assign(size() * list_capacity_, 0);
   list_sizes_.assign(size(), 0);
-  // Gives the same lists as find_neighbours(), in another order: looks at each pair once, on copies that are contiguous cell by
-  // cell.
-  struct Copy {
-    Shell shell;
-    std::int32_t particle;
-  };
-  AlignedVector<Copy> copies;
-  copies.reserve(size());
-  std::vector<std::size_t> first;  // index of each cell's first copy, then the number of copies
-  first.reserve(grid_.cells() + 1);
-  for (std::size_t cell = 0; cell < grid_.cells(); ++cell) {
-    first.push_back(copies.size());
-    grid_.for_each_in(cell, [&](std::int32_t j) { copies.push_back({shell_of_[static_cast<std::size_t>(j)], j}); });
-  }
-  first.push_back(copies.size());
+  const auto [all, first] = shells_by_cell();
   const Encounters encounters = this->encounters();
   for (std::size_t cell = 0; cell < grid_.cells(); ++cell) {
     if (first[cell] == first[cell + 1]) continue;
     const CellGrid::NearCells near = grid_.cells_near(cell);
     for (std::size_t self = first[cell]; self < first[cell + 1]; ++self) {
       std::size_t count = 0;
-      const auto find = [&](std::size_t begin, std::size_t end) {
+      const auto find = [&, &others = all](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
-          found_[count] = copies[k].particle;
-          count += encounters.possible(copies[self].shell, copies[k].shell);  // a branch would often be predicted wrongly
+          found_[count] = others[k].particle;
+          count += encounters.possible(others[self].shell, others[k].shell);
         }
       };
       find(self + 1, first[cell + 1]);
       for (const std::uint32_t other : near.all())
         if (other > cell) find(first[other], first[other + 1]);
       for (std::size_t k = 0; k < count; ++k) {
-        append(static_cast<std::size_t>(copies[self].particle), found_[k]);
-        append(static_cast<std::size_t>(found_[k]), copies[self].particle);
+        append(static_cast<std::size_t>(all[self].particle), found_[k]);
+        append(static_cast<std::size_t>(found_[k]), all[self].particle);
       }
     }
   }
