@@ -5,6 +5,7 @@
 #include "views/grid.hpp"
 #include "views/layout.hpp"
 #include "views/pair.hpp"
+#include "views/panel.hpp"
 #include "views/probe.hpp"
 #include "views/sphere.hpp"
 #include "views/state.hpp"

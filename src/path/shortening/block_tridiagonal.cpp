@@ -1,0 +1,120 @@
+#include "path/shortening/block_tridiagonal.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/padded.hpp"
+#include "core/parallel.hpp"
+
+namespace lanescape {
+
+BlockTridiagonal::BlockTridiagonal(const kernels::KernelTable& kernels, std::size_t blocks, std::size_t dimension, int threads)
+    : kernels_(&kernels),
+      dimension_(dimension),
+      rows_(padded(dimension)),
+      middle_(blocks / 2),
+      threads_(threads),
+      diagonal_(blocks),
+      coupling_(blocks - 1) {
+  set_zero();
+}
+
+void BlockTridiagonal::set_zero() {
+  const std::size_t size = kernels::panel_count(rows_) * kernels::panel_width * rows_;
+  for_each_part(threads_, [&](int part) {
+    for (std::size_t k = part_begin(blocks(), part, threads_); k < part_begin(blocks(), part + 1, threads_); ++k) {
+      diagonal_[k].assign(size, 0.0);
+      for (std::size_t i = dimension_; i < rows_; ++i) add(k, i, i, 1.0);
+      if (k < coupling_.size()) coupling_[k].assign(size, 0.0);
+    }
+  });
+}
+
+BlockTridiagonal::Side BlockTridiagonal::side(int which) const {
+  const std::size_t last = blocks() - 1;
+  return which == 0 ? Side{middle_, true, last} : Side{last - middle_, false, last};
+}
+
+// body(which), on a thread each if there are two.
+template <class Body>
+void BlockTridiagonal::for_each_side(const Body& body) const {
+  const int parts = std::min(threads_, 2);
+  for_each_part(parts, [&](int part) {
+    for (int which = part; which < 2; which += parts) body(which);
+  });
+}
+
+bool BlockTridiagonal::factor() {
+  std::array<bool, 2> positive;
+  for_each_side([&](int which) { positive[static_cast<std::size_t>(which)] = eliminate(side(which)); });
+  if (!positive[0] || !positive[1]) return false;
+  subtract_at_middle();
+  return kernels_->panel_cholesky(diagonal_[middle_].data(), rows_);
+}
+
+// D = U^T U, W = U^-T E, and the next D loses W^T W; the middle waits for both sides.
+bool BlockTridiagonal::eliminate(const Side& side) {
+  const std::size_t panels = kernels::panel_count(rows_);
+  for (std::size_t step = 0; step < side.steps; ++step) {
+    double *block = diagonal_[side.block(step)].data(), *coupling = coupling_[side.coupling(step)].data();
+    if (!kernels_->panel_cholesky(block, rows_)) return false;
+    for (std::size_t panel = 0; panel < panels; ++panel)
+      kernels_->panel_solve_transposed(block, coupling + panel * kernels::panel_width * rows_, rows_);
+    if (side.next(step) == middle_) break;
+    for (std::size_t panel = 0; panel < panels; ++panel)
+      kernels_->panel_subtract_gram(diagonal_[side.next(step)].data(), coupling, rows_, panel);
+  }
+  return true;
+}
+
+void BlockTridiagonal::subtract_at_middle() {
+  const std::size_t panels = kernels::panel_count(rows_);
+  const int parts = std::min(threads_, static_cast<int>(panels));
+  for_each_part(parts, [&](int part) {
+    for (std::size_t panel = static_cast<std::size_t>(part); panel < panels; panel += static_cast<std::size_t>(parts))
+      for (const Side& s : {side(0), side(1)})
+        if (s.steps > 0)
+          kernels_->panel_subtract_gram(diagonal_[middle_].data(), coupling_[s.coupling(s.steps - 1)].data(), rows_, panel);
+  });
+}
+
+void BlockTridiagonal::solve(std::vector<AlignedArray>& x) const {
+  std::vector<AlignedArray> work(blocks());
+  for (std::size_t k = 0; k < blocks(); ++k) {
+    work[k].assign(kernels::panel_count(rows_) * kernels::panel_width, 0.0);
+    std::copy_n(x[k].begin(), dimension_, work[k].begin());
+  }
+  for_each_side([&](int which) { forward(side(which), work); });
+  solve_middle(work);
+  for_each_side([&](int which) { backward(side(which), work); });
+  for (std::size_t k = 0; k < blocks(); ++k) std::copy_n(work[k].begin(), dimension_, x[k].begin());
+}
+
+void BlockTridiagonal::forward(const Side& side, std::vector<AlignedArray>& x) const {
+  for (std::size_t step = 0; step < side.steps; ++step) {
+    const std::size_t k = side.block(step), next = side.next(step);
+    kernels_->panel_forward(diagonal_[k].data(), x[k].data(), rows_);
+    if (next != middle_)
+      kernels_->panel_subtract_transposed_product(x[next].data(), coupling_[side.coupling(step)].data(), x[k].data(), rows_);
+  }
+}
+
+void BlockTridiagonal::solve_middle(std::vector<AlignedArray>& x) const {
+  double* middle = x[middle_].data();
+  for (const Side& s : {side(0), side(1)})
+    if (s.steps > 0)
+      kernels_->panel_subtract_transposed_product(middle, coupling_[s.coupling(s.steps - 1)].data(), x[s.block(s.steps - 1)].data(),
+                                                  rows_);
+  kernels_->panel_forward(diagonal_[middle_].data(), middle, rows_);
+  kernels_->panel_backward(diagonal_[middle_].data(), middle, rows_);
+}
+
+void BlockTridiagonal::backward(const Side& side, std::vector<AlignedArray>& x) const {
+  for (std::size_t step = side.steps; step-- > 0;) {
+    const std::size_t k = side.block(step);
+    kernels_->panel_subtract_product(x[k].data(), coupling_[side.coupling(step)].data(), x[side.next(step)].data(), rows_);
+    kernels_->panel_backward(diagonal_[k].data(), x[k].data(), rows_);
+  }
+}
+
+}  // namespace lanescape
