@@ -34,6 +34,7 @@ std::vector<Deviation> verify_kernels(Isa isa, const std::vector<PairCase>& case
   for (const PairForm& form : pair_forms().subspan(1)) append(verify_pairs(table, form_cases(form), name_in_results(form)));
   append(verify_neighbour_pairs(table, cases));
   append(verify_vector_algebra(table));
+  append(verify_panel_algebra(table));
   append(verify_state_mixtures(table, state_mixture_cases()));
   append(verify_hard_spheres(table, hard_sphere_cases()));
   append(verify_event_driven(table));

@@ -75,6 +75,9 @@ std::string describe(const Deviation& deviation);
 
 // Compares the vector algebra of a table with loops in long double, at lengths that leave every remainder.
 std::vector<Deviation> verify_vector_algebra(const kernels::KernelTable& table);
+// Compares the algebra of matrices in panels with sums in long double: what results miss when they are put into the equation they solve,
+// relative to its terms.
+std::vector<Deviation> verify_panel_algebra(const kernels::KernelTable& table);
 // All of these checks, every pair form (Lennard-Jones on the given cases), neighbour pairs, state mixtures and hard spheres. Throws Error(bad_input)
 // if the instruction set is not available.
 std::vector<Deviation> verify_kernels(Isa isa, const std::vector<PairCase>& cases);
