@@ -12,6 +12,7 @@ BlockTridiagonal::BlockTridiagonal(const kernels::KernelTable& kernels, std::siz
     : kernels_(&kernels),
       dimension_(dimension),
       rows_(padded(dimension)),
+      panels_(kernels::panel_count(rows_)),
       middle_(blocks / 2),
       threads_(threads),
       diagonal_(blocks),
@@ -20,7 +21,7 @@ BlockTridiagonal::BlockTridiagonal(const kernels::KernelTable& kernels, std::siz
 }
 
 void BlockTridiagonal::set_zero() {
-  const std::size_t size = kernels::panel_count(rows_) * kernels::panel_width * rows_;
+  const std::size_t size = panels_ * kernels::panel_width * rows_;
   for_each_part(threads_, [&](int part) {
     for (std::size_t k = part_begin(blocks(), part, threads_); k < part_begin(blocks(), part + 1, threads_); ++k) {
       diagonal_[k].assign(size, 0.0);
@@ -30,7 +31,7 @@ void BlockTridiagonal::set_zero() {
   });
 }
 
-BlockTridiagonal::Side BlockTridiagonal::side(int which) const {
+BlockTridiagonal::Side BlockTridiagonal::side(std::size_t which) const {
   const std::size_t last = blocks() - 1;
   return which == 0 ? Side{middle_, true, last} : Side{last - middle_, false, last};
 }
@@ -40,53 +41,87 @@ template <class Body>
 void BlockTridiagonal::for_each_side(const Body& body) const {
   const int parts = std::min(threads_, 2);
   for_each_part(parts, [&](int part) {
-    for (int which = part; which < 2; which += parts) body(which);
+    for (int which = part; which < 2; which += parts) body(static_cast<std::size_t>(which));
   });
 }
 
+// body(panel), on all threads.
+template <class Body>
+void BlockTridiagonal::for_each_panel(const Body& body) const {
+  const std::size_t parts = std::min(static_cast<std::size_t>(threads_), panels_);
+  for_each_part(static_cast<int>(parts), [&](int part) {
+    for (auto panel = static_cast<std::size_t>(part); panel < panels_; panel += parts) body(panel);
+  });
+}
+
+// D = U^T U, W = U^-T E, and the next D loses W^T W.
+bool BlockTridiagonal::factor_block(const Side& side, std::size_t step) {
+  return kernels_->panel_cholesky(diagonal_[side.block(step)].data(), rows_);
+}
+
+void BlockTridiagonal::solve_panel(const Side& side, std::size_t step, std::size_t panel) {
+  double* coupling = coupling_[side.coupling(step)].data();
+  kernels_->panel_solve_transposed(diagonal_[side.block(step)].data(), coupling + panel * kernels::panel_width * rows_, rows_);
+}
+
+void BlockTridiagonal::subtract_panel(const Side& side, std::size_t step, std::size_t panel) {
+  kernels_->panel_subtract_gram(diagonal_[side.next(step)].data(), coupling_[side.coupling(step)].data(), rows_, panel);
+}
+
 bool BlockTridiagonal::factor() {
-  std::array<bool, 2> positive;
-  for_each_side([&](int which) { positive[static_cast<std::size_t>(which)] = eliminate(side(which)); });
-  if (!positive[0] || !positive[1]) return false;
-  subtract_at_middle();
+  if (threads_ > 2) {
+    if (!eliminate_together()) return false;
+  } else {
+    std::array<bool, 2> positive;
+    for_each_side([&](std::size_t which) { positive[which] = eliminate(side(which)); });
+    if (!positive[0] || !positive[1]) return false;
+  }
+  for_each_panel([&](std::size_t panel) {
+    for (const Side& s : {side(0), side(1)})
+      if (s.steps > 0) subtract_panel(s, s.steps - 1, panel);
+  });
   return kernels_->panel_cholesky(diagonal_[middle_].data(), rows_);
 }
 
-// D = U^T U, W = U^-T E, and the next D loses W^T W; the middle waits for both sides.
+// On one thread, without waiting for the other side. The middle waits for both.
 bool BlockTridiagonal::eliminate(const Side& side) {
-  const std::size_t panels = kernels::panel_count(rows_);
   for (std::size_t step = 0; step < side.steps; ++step) {
-    double *block = diagonal_[side.block(step)].data(), *coupling = coupling_[side.coupling(step)].data();
-    if (!kernels_->panel_cholesky(block, rows_)) return false;
-    for (std::size_t panel = 0; panel < panels; ++panel)
-      kernels_->panel_solve_transposed(block, coupling + panel * kernels::panel_width * rows_, rows_);
-    if (side.next(step) == middle_) break;
-    for (std::size_t panel = 0; panel < panels; ++panel)
-      kernels_->panel_subtract_gram(diagonal_[side.next(step)].data(), coupling, rows_, panel);
+    if (!factor_block(side, step)) return false;
+    for (std::size_t panel = 0; panel < panels_; ++panel) solve_panel(side, step, panel);
+    if (step + 1 == side.steps) break;
+    for (std::size_t panel = 0; panel < panels_; ++panel) subtract_panel(side, step, panel);
   }
   return true;
 }
 
-void BlockTridiagonal::subtract_at_middle() {
-  const std::size_t panels = kernels::panel_count(rows_);
-  const int parts = std::min(threads_, static_cast<int>(panels));
-  for_each_part(parts, [&](int part) {
-    for (std::size_t panel = static_cast<std::size_t>(part); panel < panels; panel += static_cast<std::size_t>(parts))
-      for (const Side& s : {side(0), side(1)})
-        if (s.steps > 0)
-          kernels_->panel_subtract_gram(diagonal_[middle_].data(), coupling_[s.coupling(s.steps - 1)].data(), rows_, panel);
-  });
+// Both sides step by step, on all threads.
+bool BlockTridiagonal::eliminate_together() {
+  const std::array<Side, 2> sides{side(0), side(1)};
+  for (std::size_t step = 0; step < sides[0].steps; ++step) {  // the other side has as many steps or one fewer
+    std::array<bool, 2> positive;
+    for_each_side([&](std::size_t which) { positive[which] = step >= sides[which].steps || factor_block(sides[which], step); });
+    if (!positive[0] || !positive[1]) return false;
+    for_each_panel([&](std::size_t panel) {
+      for (const Side& s : sides)
+        if (step < s.steps) solve_panel(s, step, panel);
+    });
+    for_each_panel([&](std::size_t panel) {
+      for (const Side& s : sides)
+        if (step + 1 < s.steps) subtract_panel(s, step, panel);
+    });
+  }
+  return true;
 }
 
 void BlockTridiagonal::solve(std::vector<AlignedArray>& x) const {
   std::vector<AlignedArray> work(blocks());
   for (std::size_t k = 0; k < blocks(); ++k) {
-    work[k].assign(kernels::panel_count(rows_) * kernels::panel_width, 0.0);
+    work[k].assign(panels_ * kernels::panel_width, 0.0);
     std::copy_n(x[k].begin(), dimension_, work[k].begin());
   }
-  for_each_side([&](int which) { forward(side(which), work); });
+  for_each_side([&](std::size_t which) { forward(side(which), work); });
   solve_middle(work);
-  for_each_side([&](int which) { backward(side(which), work); });
+  for_each_side([&](std::size_t which) { backward(side(which), work); });
   for (std::size_t k = 0; k < blocks(); ++k) std::copy_n(work[k].begin(), dimension_, x[k].begin());
 }
 

@@ -47,18 +47,23 @@ class BlockTridiagonal {
     std::size_t next(std::size_t step) const { return upwards ? step + 1 : last - step - 1; }
     std::size_t coupling(std::size_t step) const { return upwards ? step : last - step - 1; }  // of a block and the next
   };
-  Side side(int which) const;
+  Side side(std::size_t which) const;
   template <class Body>
   void for_each_side(const Body& body) const;
+  template <class Body>
+  void for_each_panel(const Body& body) const;
 
+  bool factor_block(const Side& side, std::size_t step);
+  void solve_panel(const Side& side, std::size_t step, std::size_t panel);
+  void subtract_panel(const Side& side, std::size_t step, std::size_t panel);
   bool eliminate(const Side& side);
-  void subtract_at_middle();
+  bool eliminate_together();
   void forward(const Side& side, std::vector<AlignedArray>& x) const;
   void backward(const Side& side, std::vector<AlignedArray>& x) const;
   void solve_middle(std::vector<AlignedArray>& x) const;
 
   const kernels::KernelTable* kernels_;
-  std::size_t dimension_, rows_, middle_;
+  std::size_t dimension_, rows_, panels_, middle_;
   int threads_;
   std::vector<AlignedArray> diagonal_;  // by block
   std::vector<AlignedArray> coupling_;  // of a block and the one after it, towards the middle: transposed from there on
