@@ -12,8 +12,6 @@ namespace {
 
 // As many rows as leave registers for a row of vectors and a factor, which every lane shares.
 constexpr std::size_t tile_rows = lanes == 8 ? 8 : 4, tile_vectors = 3, tile_columns = tile_vectors * lanes;
-// Rows of a panel that stay in the first-level cache, beside the factors of a tile.
-constexpr std::size_t cached_rows = 128;
 
 // Rows of U on the diagonal of a factor, which follow one another by panel_width.
 struct Triangle {
@@ -62,29 +60,23 @@ inline void subtract_products(double* c, const double* a, const double* b, std::
     for (std::size_t v = 0; v < tile_vectors; ++v) store(c + r * panel_width + v * lanes, sum[r][v]);
 }
 
-// The same over the whole width of a panel c: rows [begin, end) of b and of the panels a that its rows [row, row + tile_rows)
-// belong to.
+// The same over the whole width of a panel c, for its rows [row, row + tile_rows): the first `depth` rows of the panel b and of
+// that panel of the matrix a which these rows are columns of.
 template <bool eliminate>
-inline void subtract_rows(double* c, const double* a, const double* b, std::size_t rows, std::size_t row, std::size_t begin,
-                          std::size_t end) noexcept {
-  const double* factors = a + panel_offset(rows, begin, row);
+inline void subtract_rows(double* c, const double* a, const double* b, std::size_t rows, std::size_t row,
+                          std::size_t depth) noexcept {
   const Triangle triangle{a + panel_offset(rows, row, row)};
 #pragma GCC unroll 1
   for (std::size_t column = 0; column < panel_width; column += tile_columns)
-    subtract_products<eliminate>(c + row * panel_width + column, factors, b + begin * panel_width + column, end - begin, triangle);
+    subtract_products<eliminate>(c + row * panel_width + column, a + panel_offset(rows, 0, row), b + column, depth, triangle);
+}
+
+// The first `end` rows of a panel become U^-T times them.
+inline void solve_rows(const double* factor, double* panel, std::size_t rows, std::size_t end) noexcept {
+  for (std::size_t row = 0; row < end; row += tile_rows) subtract_rows<true>(panel, factor, panel, rows, row, row);
 }
 
 inline std::size_t smaller(std::size_t a, std::size_t b) noexcept { return a < b ? a : b; }
-
-// The first `end` rows of a panel become U^-T times them, and the rows up to `last` lose their products with them.
-inline void solve_rows(const double* factor, double* panel, std::size_t rows, std::size_t end, std::size_t last) noexcept {
-  for (std::size_t begin = 0; begin < end; begin += cached_rows) {
-    const std::size_t solved = smaller(begin + cached_rows, end);
-    for (std::size_t row = begin; row < solved; row += tile_rows) subtract_rows<true>(panel, factor, panel, rows, row, begin, row);
-    for (std::size_t row = solved; row < last; row += tile_rows)
-      subtract_rows<false>(panel, factor, panel, rows, row, begin, solved);
-  }
-}
 
 // Overwrites the upper triangle of a small matrix by its factor.
 inline bool factor_triangle(double (&u)[tile_rows * panel_width]) noexcept {
@@ -100,9 +92,9 @@ inline bool factor_triangle(double (&u)[tile_rows * panel_width]) noexcept {
   return true;
 }
 
-// Rows [row, row + tile_rows) of the panel on the diagonal that they cross, whose rows from `begin` to there are known.
-inline bool factor_rows(double* matrix, double* panel, std::size_t rows, std::size_t begin, std::size_t row) noexcept {
-  subtract_rows<false>(panel, matrix, panel, rows, row, begin, row);
+// Rows [row, row + tile_rows) of the panel in which they cross the diagonal, whose rows above are known.
+inline bool factor_rows(double* matrix, double* panel, std::size_t rows, std::size_t row) noexcept {
+  subtract_rows<false>(panel, matrix, panel, rows, row, row);
   double* diagonal = matrix + panel_offset(rows, row, row);
   double triangle[tile_rows * panel_width];
   for (std::size_t r = 0; r < tile_rows; ++r)
@@ -159,23 +151,21 @@ inline void subtract_plain(double* out, const double* w, const double* x, std::s
 bool panel_cholesky(double* matrix, std::size_t rows) noexcept {
   for (std::size_t column = 0; column < rows; column += panel_width) {
     double* panel = matrix + column * rows;
-    const std::size_t last = smaller(column + panel_width, rows);
-    solve_rows(matrix, panel, rows, column, last);
-    for (std::size_t row = column; row < last; row += tile_rows)
-      if (!factor_rows(matrix, panel, rows, column, row)) return false;
+    solve_rows(matrix, panel, rows, column);
+    for (std::size_t row = column; row < smaller(column + panel_width, rows); row += tile_rows)
+      if (!factor_rows(matrix, panel, rows, row)) return false;
   }
   return true;
 }
 
 void panel_subtract_gram(double* c, const double* w, std::size_t rows, std::size_t panel) noexcept {
-  const std::size_t column = panel * panel_width, last = smaller(column + panel_width, rows);
-  for (std::size_t begin = 0; begin < rows; begin += cached_rows)
-    for (std::size_t row = 0; row < last; row += tile_rows)
-      subtract_rows<false>(c + column * rows, w, w + column * rows, rows, row, begin, smaller(begin + cached_rows, rows));
+  const std::size_t column = panel * panel_width;
+  for (std::size_t row = 0; row < smaller(column + panel_width, rows); row += tile_rows)
+    subtract_rows<false>(c + column * rows, w, w + column * rows, rows, row, rows);
 }
 
 void panel_solve_transposed(const double* factor, double* panel, std::size_t rows) noexcept {
-  solve_rows(factor, panel, rows, rows, rows);
+  solve_rows(factor, panel, rows, rows);
 }
 
 void panel_forward(const double* factor, double* x, std::size_t rows) noexcept {

@@ -95,7 +95,7 @@ class Problem {
 
 double distance(const VectorXd& a, const VectorXd& b) { return (a - b).norm() / b.norm(); }
 
-// Fewer than a vector, whole tiles and panels, parts of them, and more rows than the kernels keep in the cache at a time.
+// Fewer than a vector, whole tiles and panels, parts of them.
 const std::pair<std::size_t, std::size_t> shapes[] = {{1, 1},  {1, 30}, {2, 7},  {3, 24}, {5, 6},   {8, 6},
                                                       {8, 41}, {5, 53}, {3, 72}, {2, 50}, {1, 267}, {3, 150}};
 
