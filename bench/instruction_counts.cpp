@@ -34,6 +34,7 @@
 #include "neighbour/neighbour_list.hpp"
 #include "neighbour/pair_finder.hpp"
 #include "path/finder.hpp"
+#include "path/shortening/block_tridiagonal.hpp"
 #include "stepper/avoidance.hpp"
 #include "stepper/contour.hpp"
 
@@ -300,6 +301,33 @@ void displacement_moments(Isa isa, std::uint64_t rounds) {
   for (; rounds > 0; --rounds) keep(algebra.displacement_moments(liquid.positions, liquid.goal));
 }
 
+// Three blocks of 40 of a matrix with a large diagonal, set anew for each factor.
+void fill(BlockTridiagonal& matrix) {
+  matrix.set_zero();
+  for (std::size_t k = 0; k < matrix.blocks(); ++k)
+    for (std::size_t i = 0; i < matrix.dimension(); ++i) {
+      matrix.add(k, i, i, 4.0);
+      if (k + 1 < matrix.blocks()) matrix.add_coupling(k, i, i, -1.0);
+    }
+}
+
+void block_factor(Isa isa, std::uint64_t rounds) {
+  BlockTridiagonal matrix(kernel_table(isa), 3, 40, 1);
+  for (; rounds > 0; --rounds) {
+    fill(matrix);
+    keep(matrix.factor());
+  }
+}
+
+void block_solve(Isa isa, std::uint64_t rounds) {
+  BlockTridiagonal matrix(kernel_table(isa), 3, 40, 1);
+  fill(matrix);
+  matrix.factor();
+  std::vector<AlignedArray> x(matrix.blocks(), AlignedArray(matrix.dimension(), 1.0));
+  for (; rounds > 0; --rounds) matrix.solve(x);
+  keep(x);
+}
+
 // Random positions in the same liquid.
 std::vector<double> random_places(const Box& box, std::uint64_t count) {
   const CounterRandom random(1, RandomStream::sites);
@@ -360,6 +388,8 @@ constexpr Case cases[] = {
     {"dot", dot, 500},
     {"axpy", axpy, 500},
     {"displacement_moments", displacement_moments, 500},
+    {"block_factor", block_factor, 4},
+    {"block_solve", block_solve, 20},
 };
 
 constexpr int skipped = 77;  // the instruction set is not available
