@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -24,8 +25,11 @@ namespace {
 constexpr double largest_residual = 1e-2;
 // Spacing of nodes at first, for 108 particles of unit diameter: normals of the boundary turn over lengths that grow with sqrt(N).
 // Hard spheres bend only where they touch.
-constexpr double coarse_spacing = 0.5, hard_coarse_spacing = 2.0, spacing_particles = 108.0;
+constexpr double coarse_spacing = 0.5, hard_coarse_spacing = 4.0, spacing_particles = 108.0;
 constexpr std::uint64_t iterations_per_checkpoint = 25;
+
+// An iteration on hard spheres takes a time ~ N^3: paths of many are refined less.
+double hard_length_tolerance(double particles) { return std::clamp(1e-5 * particles, 1e-4, 1e-3); }
 
 class CurveShorteningWork final : public ShortenWork {
  public:
@@ -120,15 +124,19 @@ class CurveShorteningWork final : public ShortenWork {
   std::unique_ptr<CurveShortening> make_curve() const {
     const double unit = length_unit(setup_.model);
     const double particles = static_cast<double>(setup_.prepared.layout.size());
-    return std::make_unique<CurveShortening>(algebra_, make_relaxation(unit),
-                                             CurveOptions{.coarse_spacing = (is_hard() ? hard_coarse_spacing : coarse_spacing) *
-                                                                            unit * std::sqrt(particles / spacing_particles)});
-  }
-
-  std::unique_ptr<CurveRelaxation> make_relaxation(double unit) const {
-    if (is_hard()) return std::make_unique<HardCurve>(hard_path(), HardCurveOptions{.length_unit = unit, .threads = threads()});
-    return std::make_unique<SoftCurve>(landscape_factory(), setup_.prepared.landscape_energy,
-                                       SoftCurveOptions{.length_unit = unit, .threads = threads()});
+    const double scale = unit * std::sqrt(particles / spacing_particles);
+    if (!is_hard())
+      return std::make_unique<CurveShortening>(
+          algebra_,
+          std::make_unique<SoftCurve>(landscape_factory(), setup_.prepared.landscape_energy,
+                                      SoftCurveOptions{.length_unit = unit, .threads = threads()}),
+          CurveOptions{.coarse_spacing = coarse_spacing * scale});
+    auto curve = std::make_unique<HardCurve>(hard_path(), HardCurveOptions{.length_unit = unit, .threads = threads()});
+    const std::size_t most_nodes = curve->most_nodes();
+    return std::make_unique<CurveShortening>(algebra_, std::move(curve),
+                                             CurveOptions{.coarse_spacing = hard_coarse_spacing * scale,
+                                                          .length_tolerance = hard_length_tolerance(particles),
+                                                          .most_nodes = most_nodes});
   }
 
   bool is_hard() const { return setup_.options.method->is_hard; }

@@ -1,208 +1,211 @@
 #include "path/shortening/hard_curve.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/slot_point.hpp"
 #include "path/bend.hpp"
 
 namespace lanescape {
 namespace {
 
-constexpr double reach = 0.3;            // of planes [unit of length]
-constexpr double relaxation = 1.5;       // of the way to the midpoint of the neighbours
-constexpr double stiffness = 0.02;       // of the preconditioner: about 1/length^2 of contacts, in nodes
-constexpr double largest_tension = 5.0;  // of short segments
-constexpr double sliding_limit = 0.2;    // of the residual before corridors are made, in which nodes move less easily
-// Of nodes that touch on both sides. Contacts that begin and end keep them from settling in dense systems.
-constexpr std::uint64_t most_tight_iterations = 1000;
-constexpr int most_restorations = 40;
+// [unit of length]
+constexpr double reach = 0.8;              // of gaps that have constraints
+constexpr double margin = 1e-8;            // of gaps: more than the square of the last moves
+constexpr double largest_overlap = 5e-10;  // of the path that is handed out
+// Of products of slacks and multipliers [mean segment squared]. The barrier falls by a factor an iteration, but no faster than the
+// square of the residual.
+constexpr double first_barrier = 1e-4, later_barrier = 1e-6, last_barrier = 1e-9, tight_barrier = 1e-12, barrier_decay = 0.85;
+constexpr double residual_barrier = 1e-6;
+// A level, and the path handed out, have come to rest below these residuals; a path below 10^-2 is called stationary.
+constexpr double settled = 7e-3, settled_tight = 9e-3;
+constexpr double warmth = 10.0;                // multipliers of the last iteration fit this barrier, times that aimed at
+constexpr double largest_tension = 5.0;        // of short segments
+constexpr double momentum = 0.9;               // at most, of the last move
+constexpr double furthest = 0.16;              // that an iteration starts ahead of the path, by sphere [unit of length]
+constexpr double damping = 1.0;                // of the last moves, that of a node held by strings of its own
+constexpr int few_steps = 4, most_steps = 40;  // of the interior-point method, while the barrier falls and after
+constexpr std::uint64_t most_level_iterations = 400, most_tight_iterations = 20;
+constexpr double memory = 4.0 * 1024 * 1024 * 1024;
 
 }  // namespace
 
 HardCurve::HardCurve(const HardSpherePath& path, const HardCurveOptions& options)
-    : box_(path.box), layout_(path.layout), radii_(path.radii), metric_(path.metric), isa_(path.isa), options_(options) {}
+    : box_(path.box),
+      layout_(path.layout),
+      radii_(path.radii),
+      metric_(path.metric),
+      isa_(path.isa),
+      options_(options),
+      algebra_(kernel_table(path.isa)),
+      contact_(5e-7 * 2.0 * *std::min_element(path.radii.begin(), path.radii.end())),
+      gaps_(HardSpherePath{box_, layout_, radii_, metric_, isa_},
+            {reach * options.length_unit, margin * options.length_unit, options.threads}) {
+  if (most_nodes() < 3)
+    throw Error(
+        ErrorCode::bad_input,
+        fmt::format("curve shortening of {} hard spheres takes more than 4 GiB: use Monte Carlo shortening", layout_.size()));
+}
 
-void HardCurve::allocate(Polyline nodes) {
-  earlier_evaluations_ = evaluations();
-  const std::size_t count = nodes.size(), dimension = layout_.dimension();
-  nodes_ = std::make_unique<HardNodes>(HardSpherePath{box_, layout_, radii_, metric_, isa_}, count,
-                                       HardNodes::Options{reach * options_.length_unit, options_.length_unit, options_.threads});
-  now_ = std::move(nodes);
-  tight_iterations_ = 0;
-  tensions_.assign(count - 1, 1.0);
-  for (Polyline* field : {&rest_, &conditioned_, &direction_, &applied_, &step_})
-    field->assign(count, AlignedArray(dimension, 0.0));
+std::size_t HardCurve::most_nodes() const {
+  const auto dimension = static_cast<double>(3 * layout_.size());
+  return 2 + static_cast<std::size_t>(memory / (2.0 * dimension * dimension * sizeof(double)));
+}
+
+void HardCurve::allocate(std::size_t nodes) {
+  interior_ = std::make_unique<InteriorPoint>(kernel_table(isa_), nodes, 3 * layout_.size(), options_.threads);
+  gaps_.begin(nodes - 1);
+  tensions_.assign(nodes - 1, 1.0);
+  gradient_.assign(nodes - 2, AlignedArray(3 * layout_.size(), 0.0));
 }
 
 void HardCurve::begin(Polyline nodes) {
-  allocate(std::move(nodes));
-  restore();
-  follow();
-}
-
-void HardCurve::follow() {
-  nodes_->follow(now_);
-  moved_ = now_;
-}
-
-void HardCurve::restore() {
-  if (!nodes_->restore(now_)) throw Error(ErrorCode::goal_not_reached, "the spheres of a node of the path cannot be moved apart");
+  const bool first = now_.empty();
+  allocate(nodes.size());
+  now_ = std::move(nodes);
+  from_ = last_ = now_;
+  // Later levels begin where the barrier has fallen to.
+  level_iterations_ = first ? 0 : static_cast<std::uint64_t>(std::log(later_barrier / first_barrier) / std::log(barrier_decay));
+  onward_ = tightening_ = 0;
 }
 
 bool HardCurve::tighten() {
-  if (nodes_->planes() == HardNodes::Planes::of_segments) return false;
-  nodes_->use(nodes_->planes() == HardNodes::Planes::of_nodes ? HardNodes::Planes::of_nodes_evenly
-                                                              : HardNodes::Planes::of_segments);
-  if (nodes_->planes() == HardNodes::Planes::of_segments) restore();
-  tight_iterations_ = 0;
-  follow();
+  if (tightening_ > 0) return false;
+  tightening_ = 1;
+  level_iterations_ = 0;
+  from_ = now_;
   return true;
 }
 
-void HardCurve::set_tensions() {
-  const std::size_t segments = now_.size() - 1;
-  const double mean = polyline_length(nodes_->algebra(), now_) / static_cast<double>(segments);
+void HardCurve::set_string() {
+  const std::size_t segments = from_.size() - 1;
+  mean_ = polyline_length(algebra_, from_) / static_cast<double>(segments);
   for (std::size_t k = 0; k < segments; ++k)
-    tensions_[k] = nodes_->planes() != HardNodes::Planes::of_segments
-                       ? 1.0
-                       : std::min(largest_tension, mean / nodes_->algebra().distance(now_[k], now_[k + 1]));
-}
-
-void HardCurve::pull_at(std::size_t k, AlignedArray& pull) const {
-  const VectorAlgebra& algebra = nodes_->algebra();
-  algebra.difference(pull, moved_[k + 1], moved_[k]);
-  for (double& x : pull) x *= tensions_[k];
-  algebra.combine(pull, pull, tensions_[k - 1], moved_[k - 1], -tensions_[k - 1], moved_[k]);
-}
-
-void HardCurve::apply(const Polyline& field, std::size_t k, AlignedArray& out) const {
-  const VectorAlgebra& algebra = nodes_->algebra();
-  algebra.difference(out, field[k], field[k + 1]);
-  for (double& x : out) x *= tensions_[k];
-  algebra.combine(out, out, tensions_[k - 1], field[k], -tensions_[k - 1], field[k - 1]);
-}
-
-double HardCurve::product(const Polyline& a, const Polyline& b) const {
-  return nodes_->blocks().sum([&](std::size_t k) { return nodes_->algebra().dot(a[k], b[k]); });
-}
-
-// Moves every other node beyond the point of least energy between its neighbours, as far as the corridors allow.
-void HardCurve::sweep(std::size_t colour) {
-  nodes_->blocks().for_each_block([&](std::size_t block, std::size_t begin, std::size_t end) {
-    const VectorAlgebra& algebra = nodes_->algebra();
-    AlignedArray& way = applied_[begin];
-    for (std::size_t k = begin + (begin + colour) % 2; k < end; k += 2) {
-      pull_at(k, way);
-      const double factor = relaxation / (tensions_[k - 1] + tensions_[k]);
-      for (std::size_t q = 0; q < way.size(); ++q) way[q] = factor * way[q] + (moved_[k][q] - now_[k][q]);
-      if (nodes_->project(k, block, way)) algebra.axpy(moved_[k], now_[k], 1.0, way);
+    tensions_[k] = std::min(largest_tension, mean_ / algebra_.distance(from_[k], from_[k + 1]));
+  const SphereCoordinates& coordinates = gaps_.coordinates();
+  for (std::size_t k = 1; k < segments; ++k)
+    for (std::size_t c = 0; c < coordinates.dimension(); ++c) {
+      const std::size_t q = coordinates.slot_coordinate(c);
+      gradient_[k - 1][c] = tensions_[k - 1] * (from_[k][q] - from_[k - 1][q]) - tensions_[k] * (from_[k + 1][q] - from_[k][q]);
     }
-  });
 }
 
-// Conjugate gradients in the directions along all planes that act, until they have converged to a tenth.
-void HardCurve::find_step() {
-  const VectorAlgebra& algebra = nodes_->algebra();
-  const NodeBlocks& blocks = nodes_->blocks();
-  const auto condition = [&] {
-    conditioned_ = rest_;
-    laplacian_.solve(conditioned_, blocks);
-    blocks.for_each_node([&](std::size_t k) { nodes_->keep_to_face(k, conditioned_[k]); });
-    return product(rest_, conditioned_);
+double HardCurve::barrier() const {
+  if (tightening_ > 0) return tight_barrier;
+  return std::max({last_barrier, residual_barrier * std::min(1.0, residual_ * residual_),
+                   first_barrier * std::pow(barrier_decay, static_cast<double>(level_iterations_))});
+}
+
+void HardCurve::solve() {
+  const double target = barrier(), unit = mean_ * mean_, size = std::min(1.0, residual_);
+  const bool soft = target > last_barrier;
+  gaps_.follow(from_, warmth * target * unit, soft);
+  const InteriorPoint::Goal goal{target * unit, (soft ? 1e-2 : 1e-6) * options_.length_unit, (soft ? 0.1 : 1e-3) * size * mean_,
+                                 soft ? few_steps : most_steps};
+  interior_->solve({gradient_, tensions_, tightening_ > 0 ? damping : 0.0}, gaps_.of_segments(), goal);
+}
+
+// Takes the moves that were found, shortened so that no pair without a constraint can meet. Returns the longest of a sphere.
+double HardCurve::move() {
+  const SphereCoordinates& coordinates = gaps_.coordinates();
+  const auto longest = [&](const std::vector<AlignedArray>& moves) {
+    double largest = 0.0;
+    for (const AlignedArray& y : moves)
+      for (std::size_t c = 0; c < y.size(); c += 3) largest = std::max(largest, std::hypot(y[c], y[c + 1], y[c + 2]));
+    return largest;
   };
-  blocks.for_each_node([&](std::size_t k) {
-    pull_at(k, rest_[k]);
-    nodes_->keep_to_face(k, rest_[k]);
-    std::fill(step_[k].begin(), step_[k].end(), 0.0);
-  });
-  double weight = condition();
-  direction_ = conditioned_;
-  const double enough = 0.01 * weight;
-  for (int correction = 0; correction < most_restorations && weight > enough; ++correction) {
-    blocks.for_each_node([&](std::size_t k) {
-      apply(direction_, k, applied_[k]);
-      nodes_->keep_to_face(k, applied_[k]);
-    });
-    const double length = weight / product(direction_, applied_);
-    blocks.for_each_node([&](std::size_t k) {
-      algebra.axpy(step_[k], step_[k], length, direction_[k]);
-      algebra.axpy(rest_[k], rest_[k], -length, applied_[k]);
-    });
-    const double next = condition(), keep = next / weight;
-    weight = next;
-    blocks.for_each_node([&](std::size_t k) { algebra.axpy(direction_[k], conditioned_[k], keep, direction_[k]); });
+  const double most = 0.45 * reach * options_.length_unit, wanted = longest(interior_->moves());
+  const double share = wanted > most ? most / wanted : 1.0;
+  last_ = std::move(now_);
+  now_ = from_;
+  for (std::size_t k = 0; k < interior_->moves().size(); ++k)
+    for (std::size_t c = 0; c < coordinates.dimension(); ++c)
+      now_[k + 1][coordinates.slot_coordinate(c)] += share * interior_->moves()[k][c];
+  return share * wanted;
+}
+
+// Starts the next iteration ahead of the path, in the direction of the last one, until an iteration turns back (O'Donoghue and
+// Candes 2015).
+void HardCurve::look_ahead(double longest) {
+  double along = 0.0;
+  AlignedArray taken(layout_.dimension(), 0.0), moved(taken);
+  for (std::size_t k = 1; k + 1 < now_.size(); ++k) {
+    algebra_.difference(taken, now_[k], from_[k]);
+    algebra_.difference(moved, now_[k], last_[k]);
+    along += algebra_.dot(taken, moved);
   }
+  const bool on = along >= 0.0 && tightening_ == 0;
+  const auto since = static_cast<double>(onward_);
+  const double share =
+      on ? std::min(momentum * since / (since + 3.0), furthest * options_.length_unit / std::max(longest, 1e-300)) : 0.0;
+  onward_ = on ? onward_ + 1 : 0;
+  from_ = now_;
+  if (share > 0.0)
+    for (std::size_t k = 1; k + 1 < now_.size(); ++k) algebra_.combine(from_[k], now_[k], share, now_[k], -share, last_[k]);
 }
 
-// Moves all nodes along the planes that act: by what all planes allow of that step, and of this the part with the least energy.
-void HardCurve::correct() {
-  const VectorAlgebra& algebra = nodes_->algebra();
-  const NodeBlocks& blocks = nodes_->blocks();
-  nodes_->prepare_faces();
-  laplacian_.prepare(tensions_, stiffness);
-  find_step();
-  blocks.for_each_block([&](std::size_t block, std::size_t begin, std::size_t end) {
-    AlignedArray& moved = applied_[begin];
-    for (std::size_t k = begin; k < end; ++k) {
-      algebra.difference(moved, moved_[k], now_[k]);
-      algebra.axpy(step_[k], step_[k], 1.0, moved);
-      if (nodes_->project(k, block, step_[k]))
-        algebra.difference(step_[k], step_[k], moved);
-      else
-        std::fill(step_[k].begin(), step_[k].end(), 0.0);
-    }
-  });
-  blocks.for_each_node([&](std::size_t k) {
-    pull_at(k, rest_[k]);
-    apply(step_, k, applied_[k]);
-  });
-  const double curvature = product(step_, applied_);
-  if (!(curvature > 0.0)) return;
-  const double share = std::clamp(product(rest_, step_) / curvature, 0.0, 1.0);
-  blocks.for_each_node([&](std::size_t k) { algebra.axpy(moved_[k], moved_[k], share, step_[k]); });
-}
-
-double HardCurve::measured_residual() {
+// The Kuhn-Tucker residual by the multipliers of the last iteration. Of the path handed out, only pairs that touch have any.
+void HardCurve::judge() {
+  const std::vector<std::vector<GapConstraint>> segments = gaps_.at(now_);
+  const SphereCoordinates& coordinates = gaps_.coordinates();
+  const double unit = margin * options_.length_unit;
   BendNorms norms(now_.size());
-  nodes_->blocks().for_each_block([&](std::size_t block, std::size_t begin, std::size_t end) {
-    Bend bend(nodes_->algebra(), now_);
-    AlignedArray rest;
-    for (std::size_t k = begin; k < end; ++k) {
-      rest = bend.at(k);
-      if (nodes_->planes() != HardNodes::Planes::of_segments) pull_at(k, rest);
-      const double tau = nodes_->algebra().norm(rest);
-      nodes_->remove_support(k, block, rest);
-      norms.set(k, tau, nodes_->algebra().norm(rest), bend.floor());
-    }
-  });
-  return norms.residual();
+  Bend bend(algebra_, now_);
+  std::vector<double> rest(coordinates.dimension());
+  for (std::size_t k = 1; k + 1 < now_.size(); ++k) {
+    const AlignedArray& tau = bend.at(k);
+    for (std::size_t c = 0; c < rest.size(); ++c) rest[c] = tau[coordinates.slot_coordinate(c)];
+    for (std::size_t node = 0; node < 2; ++node)
+      for (const GapConstraint& c : segments[node == 1 ? k - 1 : k]) {
+        if (tightening_ == 0 || c.gap + unit < contact_) c.push(node, c.multiplier / mean_, rest.data());
+      }
+    double squared = 0.0;
+    for (const double x : rest) squared += x * x;
+    norms.set(k, algebra_.norm(tau), std::sqrt(squared), bend.floor());
+  }
+  residual_ = norms.residual();
 }
 
 Relaxation HardCurve::iterate() {
-  set_tensions();
-  for (const std::size_t colour : {0, 1, 0, 1}) sweep(colour);
-  correct();
-  for (const std::size_t colour : {1, 0}) sweep(colour);
-  now_ = moved_;
-  nodes_->follow(now_);
-  residual_ = measured_residual();
-  const double limit = nodes_->planes() == HardNodes::Planes::of_segments ? 1.0 : sliding_limit;
-  if (residual_ < limit * stationary_residual) return Relaxation::stationary;
-  const bool tight = nodes_->planes() != HardNodes::Planes::of_nodes;
-  return tight && ++tight_iterations_ >= most_tight_iterations ? Relaxation::stopped : Relaxation::continues;
+  set_string();
+  solve();
+  const double longest = move();
+  judge();
+  look_ahead(longest);
+  ++level_iterations_;
+  return state();
+}
+
+Relaxation HardCurve::state() {
+  if (tightening_ == 0) {
+    if (residual_ < settled && barrier() <= last_barrier) return Relaxation::stationary;
+    return level_iterations_ < most_level_iterations ? Relaxation::continues : Relaxation::stopped;
+  }
+  const bool clear = gaps_.smallest_gap() >= -largest_overlap * options_.length_unit;
+  if (clear && residual_ < settled_tight) return Relaxation::stationary;
+  if (level_iterations_ < most_tight_iterations) return Relaxation::continues;
+  if (clear) return Relaxation::stopped;
+  throw Error(ErrorCode::goal_not_reached,
+              fmt::format("spheres of the path still overlap by {:.3g} sigma, and cannot be moved apart", -gaps_.smallest_gap()));
 }
 
 void HardCurve::exchange(Archive& archive) {
   std::uint64_t count = now_.size();
   archive.field("node_count", count);
-  if (archive.reading()) allocate(Polyline(count, AlignedArray(layout_.dimension(), 0.0)));
+  if (archive.reading()) {
+    allocate(count);
+    for (Polyline* line : {&now_, &from_, &last_}) line->assign(count, AlignedArray(layout_.dimension(), 0.0));
+  }
   exchange_nodes(archive, "nodes", now_);
+  exchange_nodes(archive, "next_start", from_);
   archive.field("residual", residual_);
-  archive.field("tight_iterations", tight_iterations_);
-  archive.field("earlier_evaluations", earlier_evaluations_);
-  nodes_->exchange(archive);
-  if (archive.reading()) follow();
+  archive.field("level_iterations", level_iterations_);
+  archive.field("onward", onward_);
+  archive.field("tightening", tightening_);
+  gaps_.exchange(archive);
 }
 
 }  // namespace lanescape

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "path/shortening/curve_relaxation.hpp"
-#include "path/shortening/hard_nodes.hpp"
-#include "path/shortening/string_laplacian.hpp"
+#include "path/shortening/gap_constraints.hpp"
+#include "path/shortening/interior_point.hpp"
 
 namespace lanescape {
 
@@ -14,37 +14,39 @@ struct HardCurveOptions {
   int threads = 1;
 };
 
-// Shortens a path of hard spheres in corridors free of overlaps (HardNodes), by a truncated nonsmooth Newton method (Graeser and
-// Kornhuber 2009). The length is bounded from above by the energy of a string, half the sum of w_k |R_{k+1} - R_k|^2 with
-// w_k ~ 1/|R_{k+1} - R_k| of the last nodes. An iteration minimises it at one node after the other, then in the directions along
-// all planes that act (conjugate gradients), and moves the corridors along. The length never grows, nor do overlaps appear.
+// Shortens a path of hard spheres by sequential quadratic programming: an iteration linearises all gaps that its moves could close
+// (GapConstraints) and minimises the energy of the string, half the sum of w_k |R_{k+1} - R_k|^2 with w_k ~ 1/|R_{k+1} - R_k| of
+// the last nodes, as far as they allow (InteriorPoint). Linearised gaps are larger than those of the moved spheres by the square of
+// a move only. The barrier of the gaps falls slowly, so that contacts form and open while they are soft; where only long moves
+// along contacts are left, iterations start from nodes ahead of the last ones (Nesterov's momentum). Between levels nodes may
+// overlap by the square of the last move; tighten() ends that by short moves.
 class HardCurve final : public CurveRelaxation {
  public:
   // `path` gives the system, and is copied.
   HardCurve(const HardSpherePath& path, const HardCurveOptions& options);
 
+  // The most nodes whose matrices fit into the memory this may take, 4 GiB.
+  std::size_t most_nodes() const;
+
   void begin(Polyline nodes) override;
   Relaxation iterate() override;
-  // Segments never leave the allowed region.
   bool tighten() override;
 
   const Polyline& nodes() const override { return now_; }
   double residual() const override { return residual_; }
-  std::uint64_t evaluations() const override { return earlier_evaluations_ + (nodes_ ? nodes_->evaluations() : 0); }
+  std::uint64_t evaluations() const override { return gaps_.evaluations(); }
   void exchange(Archive& archive) override;
 
  private:
-  void allocate(Polyline nodes);
-  void follow();
-  void set_tensions();
-  void sweep(std::size_t colour);
-  void find_step();
-  void correct();
-  void restore();
-  void pull_at(std::size_t k, AlignedArray& pull) const;
-  void apply(const Polyline& field, std::size_t k, AlignedArray& out) const;
-  double product(const Polyline& a, const Polyline& b) const;
-  double measured_residual();
+  HardSpherePath path() const { return {box_, layout_, radii_, metric_, isa_}; }
+  void allocate(std::size_t nodes);
+  void set_string();
+  double barrier() const;
+  void solve();
+  double move();
+  void look_ahead(double longest);
+  void judge();
+  Relaxation state();
 
   Box box_;
   ParticleLayout layout_;
@@ -52,14 +54,17 @@ class HardCurve final : public CurveRelaxation {
   KinematicMetric metric_;
   Isa isa_;
   HardCurveOptions options_;
-  double residual_ = 1.0;
-  std::uint64_t earlier_evaluations_ = 0, tight_iterations_ = 0;
+  VectorAlgebra algebra_;
+  double contact_;  // gap of a pair that touches [sigma]
+  GapConstraints gaps_;
+  std::unique_ptr<InteriorPoint> interior_;
 
-  std::unique_ptr<HardNodes> nodes_;
-  StringLaplacian laplacian_;
-  std::vector<double> tensions_;  // of segments, 1 at the mean length
-  Polyline now_, moved_;          // where the corridors are, and the nodes since
-  Polyline rest_, conditioned_, direction_, applied_, step_;
+  Polyline now_, from_, last_;  // the path, where the next iteration starts, and the path before
+  double residual_ = 1.0;
+  std::uint64_t level_iterations_ = 0, onward_ = 0, tightening_ = 0;  // onward: iterations since one turned back
+  double mean_ = 0.0;                                                 // length of a segment of from_
+  std::vector<double> tensions_;
+  std::vector<AlignedArray> gradient_;
 };
 
 }  // namespace lanescape

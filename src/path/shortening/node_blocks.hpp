@@ -5,7 +5,6 @@
 #include <functional>
 #include <memory>
 
-#include "core/parallel.hpp"
 #include "core/thread_team.hpp"
 
 namespace lanescape {
@@ -38,16 +37,6 @@ class NodeBlocks {
   template <class Body>
   void for_each_short_block(const Body& body) const {
     for_each_block(body, Taking::own_blocks);
-  }
-  // body(begin, end) of shares of n elements that are not nodes, one per thread. No result may depend on how many they are.
-  template <class Body>
-  void for_each_share(std::size_t n, const Body& body) const {
-    const int shares = threads();
-    const auto run_block = [&](std::size_t block) {
-      for (int share = 0; share < shares; ++share)  // at the first block of its thread
-        if (block == part_begin(count, share, shares)) body(part_begin(n, share, shares), part_begin(n, share + 1, shares));
-    };
-    team_->for_each(std::cref(run_block), Taking::own_blocks);
   }
   // body(node) of each inner node.
   template <class Body>

@@ -46,8 +46,8 @@ class SoftCurve final : public CurveRelaxation {
   SoftLandscapeMaker make_landscape_;
   double landscape_energy_;
   SoftCurveOptions options_;
-  double scale_ = 1.0;  // lengths in 3N space at which normals turn, for the system's size [sigma]
-  double trust_ = 0.0;  // longest step of a node [sigma]
+  double scale_ = 1.0;   // lengths in 3N space at which normals turn, for the system's size [sigma]
+  double trust_ = 0.0;   // longest step of a node [sigma]
   bool is_cut_ = false;  // whether the step that was found last ends at it
   double residual_ = 1.0;
   std::uint64_t earlier_evaluations_ = 0;

@@ -15,30 +15,25 @@ class StringLaplacian {
  public:
   // Of L + shift, shift >= 0.
   void prepare(std::size_t nodes, double shift);
-  // The same with a tension for each segment, by which its square counts.
-  void prepare(const std::vector<double>& tensions, double shift);
 
   double diagonal() const { return diagonal_; }
   // By node: the diagonal of (L + shift)^-1, and the factor by which a column of it, above the diagonal, falls from the next node
   // to this one. Both are 0 at the ends.
   std::vector<double> inverse_diagonal() const;
-  std::vector<double> couplings() const;
+  const std::vector<double>& couplings() const { return pivot_; }
   // Overwrites the inner nodes of `field` by the solution of (L + shift) x = field. Both ends stay 0. O(nodes x coordinates).
   // Each block of nodes stays with one thread: it is solved as if the path ended there, and then gets what comes from its
   // neighbours. begin(k) makes the right-hand side of node k in `field`, end(k) is called when its solution is there.
   using NodeAction = std::function<void(std::size_t)>;
   void solve(const VectorAlgebra& algebra, Polyline& field, const NodeBlocks& blocks, const NodeAction& begin,
              const NodeAction& end);
-  // The same by coordinates, without an algebra, of the right-hand side that is in `field`.
-  void solve(Polyline& field, const NodeBlocks& blocks) const;
 
  private:
   void eliminate(const VectorAlgebra& algebra, Polyline& field, const NodeBlocks& blocks, const NodeAction& begin);
   void substitute(const VectorAlgebra& algebra, Polyline& field, const NodeBlocks& blocks);
 
   double diagonal_ = 2.0;
-  std::vector<double> tensions_;  // by segment
-  std::vector<double> pivot_;     // one over the pivots of the elimination, by node
+  std::vector<double> pivot_;  // one over the pivots of the elimination, by node
   // Of a solve, by block of nodes: its last node once it is eliminated, its first once it is substituted, what comes from other
   // blocks, and the parts of that which cross it. Then the parts that each node takes.
   Polyline last_, first_, carry_;

@@ -10,8 +10,11 @@
 
 #include "configuration/pair_model.hpp"
 #include "core/byte_archive.hpp"
+#include "core/error.hpp"
 #include "path/path_check.hpp"
 #include "path/shortening/curve_shortening.hpp"
+#include "reference/curve_shortening.hpp"
+#include "small_spheres.hpp"
 #include "two_sphere_path.hpp"
 
 namespace lanescape {
@@ -138,6 +141,46 @@ TEST(HardCurve, FindsThePathOfTheSameLengthFromItsOtherEndAndWithParticlesSwappe
   const double length = shortened(spheres, start).length;
   EXPECT_NEAR(shortened(spheres, reversed(start)).length, length, 1e-5 * length);
   EXPECT_NEAR(shortened(swapped, swapped.nodes(150, [&](double t) { return detour(example, t); })).length, length, 1e-5 * length);
+}
+
+// The reference shortens with node constraints alone, so that its segments cut corners, and may end in another geodesic nearby.
+TEST(HardCurve, MakesPathsOfSmallFluidsStationaryAndAboutAsShortAsTheReferenceDoes) {
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    const testing::SmallSpheres spheres(seed == 2u ? 3 : 2, 0.35, seed == 2u ? 4.0 : 6.0, seed);
+    const auto greedy = spheres.greedy();
+    const auto expected =
+        reference::shorten_curve(greedy, reference::without_overlaps(spheres.pair.radii, spheres.pair.box), {.fine = 129});
+    const KinematicMetric metric(hard_sphere(), spheres.layout);
+    const HardSpherePath system{spheres.box, spheres.layout, spheres.pair.radii, metric, choose_isa("auto")};
+    const VectorAlgebra algebra(kernel_table(system.isa));
+    Polyline start;
+    for (const reference::Point& node : greedy) start.push_back(spheres.layout.to_slots(node));
+    CurveShortening curve(algebra, std::make_unique<HardCurve>(system, HardCurveOptions{}),
+                          {.coarse_spacing = 0.5, .length_tolerance = 1e-3});
+    curve.begin(start);
+    finish(curve);
+    const PathCheck check = check_path(system, curve.nodes());
+    EXPECT_LE(check.kuhn_tucker_residual, 1e-2) << seed;
+    EXPECT_LE(check.largest_violation, 1e-9) << seed;
+    EXPECT_LE(check.length, 1.01 * expected.length) << seed;
+    EXPECT_LT(check.length, polyline_length(algebra, start)) << seed;
+  }
+}
+
+TEST(HardCurve, RefusesMoreSpheresThanItsMatricesHaveMemoryFor) {
+  const std::size_t count = 6000;
+  const Box box{{1000.0, 1000.0, 1000.0}};
+  const ParticleLayout layout(std::vector<int>(count, 0), 1);
+  const KinematicMetric metric(hard_sphere(), layout);
+  const std::vector<double> radii(count, 0.5);
+  const HardSpherePath many{box, layout, radii, metric, choose_isa("auto")};
+  try {
+    HardCurve(many, {});
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::bad_input);
+    EXPECT_NE(std::string(error.what()).find("6000 hard spheres"), std::string::npos) << error.what();
+  }
 }
 
 TEST(HardCurve, HasTheSameBitsOnOneThreadAndOnTwoAndAfterResuming) {

@@ -1,0 +1,210 @@
+#include "path/shortening/gap_constraints.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/float_environment.hpp"
+#include "core/parallel.hpp"
+#include "core/slot_point.hpp"
+
+namespace lanescape {
+namespace {
+
+// Slack times multiplier stays within this factor of the barrier.
+constexpr double neighbourhood = 1e3;
+
+Point unit_vector(const Point& d) {
+  const double length = std::sqrt(dot(d, d));
+  return length > 0.0 ? Point{d[0] / length, d[1] / length, d[2] / length} : Point{1.0, 0.0, 0.0};
+}
+
+// `place`: 0 within a segment, 1 at the node behind it.
+std::uint64_t key_of(const Approach& pair, std::uint64_t place) {
+  std::uint64_t result = static_cast<std::uint64_t>(pair.first) << 22 | static_cast<std::uint64_t>(pair.second);
+  for (const std::int32_t image : pair.image) result = result << 6 | static_cast<std::uint64_t>(image & 63);
+  return result << 1 | place;
+}
+
+bool by_key(const GapConstraint& a, const GapConstraint& b) { return a.key < b.key; }
+
+// The unit normal of the plane that touches a sphere of radius `contact` and goes through `end`, on the side of `other`.
+Point tangent_through(const Point& end, const Point& other, double contact) {
+  const Point e = unit_vector(end);
+  const double along = dot(other, e), length = std::sqrt(dot(end, end));
+  const Point f = unit_vector({other[0] - along * e[0], other[1] - along * e[1], other[2] - along * e[2]});
+  const double cosine = std::min(1.0, contact / length), sine = std::sqrt(1.0 - cosine * cosine);
+  return {cosine * e[0] + sine * f[0], cosine * e[1] + sine * f[1], cosine * e[2] + sine * f[2]};
+}
+
+}  // namespace
+
+SphereCoordinates::SphereCoordinates(const ParticleLayout& layout) : first_(layout.slots(), 0) {
+  for (std::size_t particle = 0; particle < layout.size(); ++particle) {
+    const std::size_t slot = layout.slot_of(particle);
+    first_[slot] = slots_of_.size();
+    for (std::size_t axis = 0; axis < 3; ++axis) slots_of_.push_back(axis * layout.slots() + slot);
+  }
+}
+
+struct GapConstraints::Scratch {
+  explicit Scratch(const HardSpherePath& path)
+      : spheres(path.box, path.layout, path.radii, kernel_table(path.isa)), gaps(spheres) {}
+  HardSphereOverlap spheres;
+  SegmentGaps gaps;
+};
+
+// The constraints of one segment.
+class GapConstraints::Builder {
+ public:
+  Builder(const GapConstraints& owner, Scratch& scratch, bool first, bool last)
+      : owner_(&owner), scratch_(&scratch), first_(first), last_(last) {}
+
+  void add(const Approach& pair, const AlignedArray& from, const AlignedArray& to, std::vector<GapConstraint>& out) const {
+    if (pair.first == pair.second) return;
+    const AlignedArray& radii = scratch_->spheres.radii();
+    const double contact = radii[static_cast<std::size_t>(pair.first)] + radii[static_cast<std::size_t>(pair.second)];
+    const Point before = separation_at(from, pair, owner_->box_), behind = separation_at(to, pair, owner_->box_);
+    const auto plane = [&](const Point& normal, const Point& d, std::array<double, 2> shares, std::uint64_t place) {
+      const double gap = dot(normal, d) - contact;
+      if (gap < owner_->options_.reach) out.push_back(constraint(pair, normal, gap, shares, place));
+    };
+    if (!last_) plane(unit_vector(behind), behind, {0.0, 1.0}, 1);
+    if (first_ && last_) return;
+    if (first_ && pair.fraction < 1.0)
+      plane(tangent_through(before, behind, contact), behind, {0.0, 1.0}, 0);
+    else if (last_ && pair.fraction > 0.0)
+      plane(tangent_through(behind, before, contact), before, {1.0, 0.0}, 0);
+    else if (!first_ && !last_ && pair.fraction > 0.0 && pair.fraction < 1.0) {
+      const std::size_t before_this = out.size();
+      plane(unit_vector(pair.separation), pair.separation, {1.0 - pair.fraction, pair.fraction}, 0);
+      if (out.size() > before_this) add_turns(pair, difference(behind, before), out.back());
+    }
+  }
+
+ private:
+  // Of the point nearest to the other sphere on a segment along `move`.
+  void add_turns(const Approach& pair, const Point& move, GapConstraint& c) const {
+    const double length = std::sqrt(dot(move, move));
+    c.distance = std::sqrt(dot(pair.separation, pair.separation));
+    for (std::size_t node = 0; node < 2; ++node)
+      for (std::size_t sphere = 0; sphere < 2; ++sphere) {
+        const double scale =
+            (sphere == 0 ? -1.0 : 1.0) * owner_->scale_[static_cast<std::size_t>(sphere == 0 ? pair.first : pair.second)];
+        const double along = scale * c.shares[node] / length, across = (node == 0 ? -1.0 : 1.0) * scale / length;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          c.turns[node][sphere][axis] = along * move[axis] + across * pair.separation[axis];
+      }
+  }
+  GapConstraint constraint(const Approach& pair, const Point& normal, double gap, std::array<double, 2> shares,
+                           std::uint64_t place) const {
+    const auto i = static_cast<std::size_t>(pair.first), j = static_cast<std::size_t>(pair.second);
+    const auto slope = [&](double sign, std::size_t slot) {
+      const double factor = sign * owner_->scale_[slot];
+      return Point{factor * normal[0], factor * normal[1], factor * normal[2]};
+    };
+    return {key_of(pair, place),
+            {owner_->coordinates_.first_of(i), owner_->coordinates_.first_of(j)},
+            {slope(-1.0, i), slope(1.0, j)},
+            shares,
+            gap - owner_->options_.margin};
+  }
+
+  const GapConstraints* owner_;
+  Scratch* scratch_;
+  bool first_, last_;
+};
+
+GapConstraints::GapConstraints(const HardSpherePath& path, const Options& options)
+    : box_(path.box), metric_(path.metric), options_(options), coordinates_(path.layout), scale_(path.layout.dimension(), 1.0) {
+  metric_.to_positions(scale_);
+  for (int part = 0; part < options.threads; ++part) scratch_.push_back(std::make_unique<Scratch>(path));
+}
+
+GapConstraints::~GapConstraints() = default;
+
+void GapConstraints::build(const Polyline& nodes, std::vector<std::vector<GapConstraint>>& segments) {
+  const std::size_t count = nodes.size() - 1;
+  segments.resize(count);
+  smallest_.assign(count, options_.reach);
+  evaluations_ += count;
+  for_each_part(options_.threads, [&](int part) {
+    const FloatEnvironment environment;
+    Scratch& scratch = *scratch_[static_cast<std::size_t>(part)];
+    AlignedArray from, to;
+    for (std::size_t k = part_begin(count, part, options_.threads); k < part_begin(count, part + 1, options_.threads); ++k) {
+      if (to.empty())
+        metric_.to_positions(from = nodes[k]);
+      else
+        from.swap(to);
+      metric_.to_positions(to = nodes[k + 1]);
+      segments[k].clear();
+      const Builder builder(*this, scratch, k == 0, k + 1 == count);
+      for (const Approach& pair : scratch.gaps.below(from, to, options_.reach)) {
+        smallest_[k] = std::min(smallest_[k], pair.gap);
+        builder.add(pair, from, to, segments[k]);
+      }
+      std::sort(segments[k].begin(), segments[k].end(), by_key);
+    }
+  });
+}
+
+void GapConstraints::follow(const Polyline& nodes, double barrier, bool keep_slacks) {
+  const std::vector<std::vector<GapConstraint>> before = std::move(segments_);
+  build(nodes, segments_);
+  for (std::size_t k = 0; k < segments_.size(); ++k) {
+    std::size_t next = 0;
+    for (GapConstraint& now : segments_[k]) {
+      while (k < before.size() && next < before[k].size() && before[k][next].key < now.key) ++next;
+      const bool known = k < before.size() && next < before[k].size() && before[k][next].key == now.key;
+      now.slack = std::max(now.gap, known && keep_slacks ? before[k][next].slack : std::sqrt(barrier));
+      const double central = barrier / now.slack;
+      now.stiffness = known ? before[k][next].multiplier / now.distance : 0.0;
+      now.multiplier = known ? std::clamp(before[k][next].multiplier, central / neighbourhood, central * neighbourhood) : central;
+    }
+  }
+}
+
+std::vector<std::vector<GapConstraint>> GapConstraints::at(const Polyline& nodes) {
+  std::vector<std::vector<GapConstraint>> result;
+  build(nodes, result);
+  for (std::size_t k = 0; k < result.size() && k < segments_.size(); ++k) {
+    auto known = segments_[k].begin();
+    for (GapConstraint& now : result[k]) {
+      known = std::lower_bound(known, segments_[k].end(), now, by_key);
+      if (known != segments_[k].end() && known->key == now.key) now.multiplier = known->multiplier;
+    }
+  }
+  return result;
+}
+
+double GapConstraints::smallest_gap() const { return *std::min_element(smallest_.begin(), smallest_.end()); }
+
+void GapConstraints::exchange(Archive& archive) {
+  archive.field("evaluations", evaluations_);
+  std::vector<std::uint64_t> counts;
+  for (const std::vector<GapConstraint>& segment : segments_) counts.push_back(segment.size());
+  archive.field("constraint_counts", counts);
+  if (archive.reading())
+    for (std::size_t k = 0; k < counts.size(); ++k) segments_[k].assign(counts[k], GapConstraint{});
+  std::vector<std::uint64_t> keys;
+  std::vector<double> slacks, multipliers;
+  for (const std::vector<GapConstraint>& segment : segments_)
+    for (const GapConstraint& c : segment) {
+      keys.push_back(c.key);
+      slacks.push_back(c.slack);
+      multipliers.push_back(c.multiplier);
+    }
+  archive.field("constraint_keys", keys);
+  archive.field("slacks", slacks);
+  archive.field("multipliers", multipliers);
+  std::size_t next = 0;
+  for (std::vector<GapConstraint>& segment : segments_)
+    for (GapConstraint& c : segment) {
+      c.key = keys[next];
+      c.slack = slacks[next];
+      c.multiplier = multipliers[next++];
+    }
+}
+
+}  // namespace lanescape

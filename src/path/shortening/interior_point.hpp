@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/aligned_array.hpp"
+#include "path/shortening/block_tridiagonal.hpp"
+#include "path/shortening/gap_constraints.hpp"
+
+namespace lanescape {
+
+// Minimises the energy of a string with tensions, half the sum of w_k |R_{k+1} + y_{k+1} - R_k - y_k|^2, over moves y of its inner
+// nodes that close none of the gaps, as these are linearised: a primal-dual interior-point method with Mehrotra's predictor and
+// corrector (Nocedal and Wright, Numerical Optimization, 2nd ed., section 16.6). Each step factors a block-tridiagonal matrix.
+class InteriorPoint {
+ public:
+  struct String {
+    const std::vector<AlignedArray>& gradient;  // of the energy at y = 0, of each inner node
+    const std::vector<double>& tensions;        // of each segment
+    double damping;                             // half of it times |y|^2 is added to the energy
+  };
+  struct Goal {
+    double barrier;    // mean product of slacks and multipliers
+    double violation;  // of a gap [sigma]
+    double force;      // length of the part of the gradient at a node that no gap accounts for
+    int most_steps;
+  };
+
+  // For paths of this many nodes, ends included.
+  InteriorPoint(const kernels::KernelTable& kernels, std::size_t nodes, std::size_t dimension, int threads);
+
+  // Moves slacks and multipliers along. Returns false where no step was possible.
+  bool solve(const String& string, std::vector<std::vector<GapConstraint>>& segments, const Goal& goal);
+  // y of each inner node.
+  const std::vector<AlignedArray>& moves() const { return moves_; }
+
+ private:
+  using Segments = std::vector<std::vector<GapConstraint>>;
+  struct Lengths {
+    double primal = 1.0, dual = 1.0;
+  };
+
+  const double* node(const std::vector<AlignedArray>& field, std::size_t k) const;
+  template <class Body>
+  void for_each_inner(const Body& body) const;
+  template <class Body>
+  void for_each_segment(Segments& segments, const Body& body) const;
+  double complementarity(Segments& segments, const Lengths& lengths);
+  void set_rest(const String& string, Segments& segments);
+  double largest_rest() const;
+  double largest_violation(Segments& segments);
+  void assemble(const String& string, const Segments& segments);
+  Lengths find_step(Segments& segments, double target, bool corrected);
+  void take_step(Segments& segments, const Lengths& lengths);
+
+  std::size_t inner_, dimension_;
+  int threads_;
+  BlockTridiagonal matrix_;
+  std::vector<AlignedArray> moves_, rest_, step_;
+  std::vector<double> of_segment_;  // partial results, added in one order
+};
+
+}  // namespace lanescape
