@@ -24,12 +24,12 @@ constexpr double residual_barrier = 1e-6;
 constexpr double settled = 7e-3, settled_tight = 9e-3;
 constexpr double warmth = 10.0;                // multipliers of the last iteration fit this barrier, times that aimed at
 constexpr double largest_tension = 5.0;        // of short segments
-constexpr double momentum = 0.9;               // at most, of the last move
+constexpr double most_momentum = 0.9;          // at most, of the last move
 constexpr double furthest = 0.16;              // that an iteration starts ahead of the path, by sphere [unit of length]
-constexpr double damping = 1.0;                // of the last moves, that of a node held by strings of its own
+constexpr double last_damping = 1.0;           // of the last moves, that of a node held by strings of its own
 constexpr int few_steps = 4, most_steps = 40;  // of the interior-point method, while the barrier falls and after
 constexpr std::uint64_t most_level_iterations = 400, most_tight_iterations = 20;
-constexpr double memory = 4.0 * 1024 * 1024 * 1024;
+constexpr double matrix_memory = 4.0 * 1024 * 1024 * 1024;
 
 }  // namespace
 
@@ -52,7 +52,7 @@ HardCurve::HardCurve(const HardSpherePath& path, const HardCurveOptions& options
 
 std::size_t HardCurve::most_nodes() const {
   const auto dimension = static_cast<double>(3 * layout_.size());
-  return 2 + static_cast<std::size_t>(memory / (2.0 * dimension * dimension * sizeof(double)));
+  return 2 + static_cast<std::size_t>(matrix_memory / (2.0 * dimension * dimension * sizeof(double)));
 }
 
 void HardCurve::allocate(std::size_t nodes) {
@@ -105,7 +105,7 @@ void HardCurve::solve() {
   gaps_.follow(from_, warmth * target * unit, soft);
   const InteriorPoint::Goal goal{target * unit, (soft ? 1e-2 : 1e-6) * options_.length_unit, (soft ? 0.1 : 1e-3) * size * mean_,
                                  soft ? few_steps : most_steps};
-  interior_->solve({gradient_, tensions_, tightening_ > 0 ? damping : 0.0}, gaps_.of_segments(), goal);
+  interior_->solve({gradient_, tensions_, tightening_ > 0 ? last_damping : 0.0}, gaps_.of_segments(), goal);
 }
 
 // Takes the moves that were found, shortened so that no pair without a constraint can meet. Returns the longest of a sphere.
@@ -140,7 +140,7 @@ void HardCurve::look_ahead(double longest) {
   const bool on = along >= 0.0 && tightening_ == 0;
   const auto since = static_cast<double>(onward_);
   const double share =
-      on ? std::min(momentum * since / (since + 3.0), furthest * options_.length_unit / std::max(longest, 1e-300)) : 0.0;
+      on ? std::min(most_momentum * since / (since + 3.0), furthest * options_.length_unit / std::max(longest, 1e-300)) : 0.0;
   onward_ = on ? onward_ + 1 : 0;
   from_ = now_;
   if (share > 0.0)
