@@ -21,6 +21,15 @@ inline double relative(long double value, long double expected, long double scal
 
 inline bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
+// A sum, and that of the absolute terms, by which its rounding is measured.
+struct TermSum {
+  long double value = 0.0L, magnitude = 0.0L;
+  void add(long double term) {
+    value += term;
+    magnitude += std::abs(term);
+  }
+};
+
 // Keeps the worst of many cases.
 struct Check {
   Deviation deviation;

@@ -67,14 +67,7 @@ AlignedArray random_vector(std::size_t rows, std::uint64_t which) {
 }
 
 // By how much sums of products miss what they should be, relative to the absolute terms.
-struct Residual {
-  long double value = 0.0L, magnitude = 0.0L;
-  void add(long double term) {
-    value += term;
-    magnitude += std::abs(term);
-  }
-  double relative_to_terms() const { return relative(value, 0.0L, magnitude); }
-};
+double relative_to_terms(const TermSum& left) { return relative(left.value, 0.0L, left.magnitude); }
 
 struct PanelAlgebraChecks {
   explicit PanelAlgebraChecks(const kernels::KernelTable& kernels) : table(kernels) {}
@@ -91,10 +84,10 @@ struct PanelAlgebraChecks {
     double worst = table.panel_cholesky(factor.elements.data(), matrix.rows) ? 0.0 : broken;
     for (std::size_t i = 0; i < matrix.rows; ++i)
       for (std::size_t j = i; j < matrix.rows; ++j) {
-        Residual left;
+        TermSum left;
         left.add(-matrix.at(i, j));
         for (std::size_t k = 0; k <= i; ++k) left.add(factor.upper(k, i) * factor.upper(k, j));
-        worst = std::max(worst, left.relative_to_terms());
+        worst = std::max(worst, relative_to_terms(left));
       }
     PanelMatrix indefinite = matrix;
     indefinite.at(matrix.rows - 1, matrix.rows - 1) = -1.0;
@@ -109,11 +102,11 @@ struct PanelAlgebraChecks {
     double worst = 0.0;
     for (std::size_t i = 0; i < w.rows; ++i)
       for (std::size_t j = i; j < w.rows; ++j) {
-        Residual left;
+        TermSum left;
         left.add(before.at(i, j));
         left.add(-after.at(i, j));
         for (std::size_t k = 0; k < w.rows; ++k) left.add(-static_cast<long double>(w.at(k, i)) * w.at(k, j));
-        worst = std::max(worst, left.relative_to_terms());
+        worst = std::max(worst, relative_to_terms(left));
       }
     gram.add(name, worst);
   }
@@ -125,10 +118,10 @@ struct PanelAlgebraChecks {
     double worst = 0.0;
     for (std::size_t i = 0; i < x.rows; ++i)
       for (std::size_t j = 0; j < panel_count(x.rows) * panel_width; ++j) {
-        Residual left;
+        TermSum left;
         left.add(-right.at(i, j));
         for (std::size_t k = 0; k <= i; ++k) left.add(factor.upper(k, i) * x.at(k, j));
-        worst = std::max(worst, left.relative_to_terms());
+        worst = std::max(worst, relative_to_terms(left));
       }
     solve.add(name, worst);
   }
@@ -139,13 +132,13 @@ struct PanelAlgebraChecks {
     table.panel_backward(factor.elements.data(), y.data(), factor.rows);
     double worst_forward = 0.0, worst_backward = 0.0;
     for (std::size_t i = 0; i < factor.rows; ++i) {
-      Residual of_forward, of_backward;
+      TermSum of_forward, of_backward;
       of_forward.add(-right[i]);
       of_backward.add(-right[i]);
       for (std::size_t k = 0; k <= i; ++k) of_forward.add(factor.upper(k, i) * x[k]);
       for (std::size_t k = i; k < factor.rows; ++k) of_backward.add(factor.upper(i, k) * y[k]);
-      worst_forward = std::max(worst_forward, of_forward.relative_to_terms());
-      worst_backward = std::max(worst_backward, of_backward.relative_to_terms());
+      worst_forward = std::max(worst_forward, relative_to_terms(of_forward));
+      worst_backward = std::max(worst_backward, relative_to_terms(of_backward));
     }
     forward.add(name, worst_forward);
     backward.add(name, worst_backward);
@@ -157,15 +150,15 @@ struct PanelAlgebraChecks {
     table.panel_subtract_transposed_product(turned.data(), w.elements.data(), x.data(), w.rows);
     double worst_plain = 0.0, worst_turned = 0.0;
     for (std::size_t i = 0; i < x.size(); ++i) {
-      Residual of_plain, of_turned;
+      TermSum of_plain, of_turned;
       of_plain.add(static_cast<long double>(before[i]) - plain[i]);
       of_turned.add(static_cast<long double>(before[i]) - turned[i]);
       for (std::size_t k = 0; i < w.rows && k < w.rows; ++k) {
         of_plain.add(-static_cast<long double>(w.at(i, k)) * x[k]);
         of_turned.add(-static_cast<long double>(w.at(k, i)) * x[k]);
       }
-      worst_plain = std::max(worst_plain, of_plain.relative_to_terms());
-      worst_turned = std::max(worst_turned, of_turned.relative_to_terms());
+      worst_plain = std::max(worst_plain, relative_to_terms(of_plain));
+      worst_turned = std::max(worst_turned, relative_to_terms(of_turned));
     }
     product.add(name, worst_plain);
     transposed.add(name, worst_turned);

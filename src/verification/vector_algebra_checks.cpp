@@ -19,15 +19,6 @@ AlignedArray random_array(std::size_t length, std::uint64_t which) {
   return values;
 }
 
-// A sum of products and of their absolute values.
-struct Sum {
-  long double value = 0.0L, magnitude = 0.0L;
-  void add(long double term) {
-    value += term;
-    magnitude += std::abs(term);
-  }
-};
-
 struct VectorAlgebraChecks {
   explicit VectorAlgebraChecks(const kernels::KernelTable& kernels) : table(kernels) {}
 
@@ -41,7 +32,7 @@ struct VectorAlgebraChecks {
       lengths{table, "add_particle_lengths", tolerance::displacement};
 
   void add_sums(const std::string& name, const AlignedArray& a, const AlignedArray& b) {
-    Sum product, square;
+    TermSum product, square;
     for (std::size_t i = 0; i < a.size(); ++i) {
       product.add(static_cast<long double>(a[i]) * b[i]);
       square.add((static_cast<long double>(a[i]) - b[i]) * (static_cast<long double>(a[i]) - b[i]));
@@ -51,7 +42,7 @@ struct VectorAlgebraChecks {
   }
 
   void add_displacements(const std::string& name, std::size_t slots, const AlignedArray& a, const AlignedArray& b) {
-    Sum squares, fourths;
+    TermSum squares, fourths;
     long double largest = 0.0L;
     double worst_length = 0.0;
     AlignedArray sums = random_array(slots, 4);
@@ -89,7 +80,7 @@ struct VectorAlgebraChecks {
     const auto worst = [&](double factor) {
       double largest = 0.0;
       for (std::size_t i = 0; i < n; ++i) {
-        Sum expected;
+        TermSum expected;
         expected.add(a[i]);
         expected.add(static_cast<long double>(p) * b[i]);
         expected.add(static_cast<long double>(factor) * c[i]);

@@ -52,7 +52,7 @@ TEST(PathCheckParity, SmallLiquidsHaveTheCertificateOfTheReference) {
 
 TEST(PathCheckParity, SmallSystemsOfHardSpheresHaveTheCertificateOfTheReference) {
   for (const unsigned seed : {1u, 2u, 3u}) {
-    const testing::SmallSpheres spheres(seed == 2u ? 3 : 2, 0.35, seed == 2u ? 4.0 : 6.0, seed);
+    const testing::SmallSpheres spheres(seed);
     const auto greedy = spheres.greedy();
     const auto shortened =
         reference::shorten_curve(greedy, reference::without_overlaps(spheres.pair.radii, spheres.pair.box), {.fine = 65});
@@ -63,7 +63,7 @@ TEST(PathCheckParity, SmallSystemsOfHardSpheresHaveTheCertificateOfTheReference)
       EXPECT_GT(bends_with_multipliers(expected), 3) << "the path has contacts";
       // A pair that touches on both segments of a node counts twice there, in nearly the same direction: the reference is slow to
       // share its multiplier out.
-      expect_same(spheres.check(nodes, tolerance), expected, 1e-11, 1e-4);
+      expect_same(check_path(spheres.path(), spheres.in_slots(nodes), {.contact_tolerance = tolerance}), expected, 1e-11, 1e-4);
     }
   }
 }

@@ -8,13 +8,10 @@
 
 namespace lanescape {
 
-// Of PHYSICS 4; a path below it is stationary.
-inline constexpr double stationary_residual = 5e-3;
-
 // How far one iteration has brought a path.
 enum class Relaxation : std::uint64_t {
   continues,
-  stationary,  // the Kuhn-Tucker residual has come below its limit
+  stationary,  // the Kuhn-Tucker residual has come below the limit of the relaxation
   stopped      // no step makes the path shorter any more
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/float_environment.hpp"
 #include "core/parallel.hpp"
@@ -27,6 +26,12 @@ std::uint64_t key_of(const Approach& pair, std::uint64_t place) {
 }
 
 bool by_key(const GapConstraint& a, const GapConstraint& b) { return a.key < b.key; }
+
+// Null where there is none among these, which are in the order of their keys.
+const GapConstraint* same_constraint(const std::vector<GapConstraint>& sorted, const GapConstraint& wanted) {
+  const auto found = std::lower_bound(sorted.begin(), sorted.end(), wanted, by_key);
+  return found != sorted.end() && found->key == wanted.key ? &*found : nullptr;
+}
 
 // The unit normal of the plane that touches a sphere of radius `contact` and goes through `end`, on the side of `other`.
 Point tangent_through(const Point& end, const Point& other, double contact) {
@@ -70,7 +75,6 @@ class GapConstraints::Builder {
       if (gap < owner_->options_.reach) out.push_back(constraint(pair, normal, gap, shares, place));
     };
     if (!last_) plane(unit_vector(behind), behind, {0.0, 1.0}, 1);
-    if (first_ && last_) return;
     if (first_ && pair.fraction < 1.0)
       plane(tangent_through(before, behind, contact), behind, {0.0, 1.0}, 0);
     else if (last_ && pair.fraction > 0.0)
@@ -123,7 +127,7 @@ GapConstraints::GapConstraints(const HardSpherePath& path, const Options& option
 
 GapConstraints::~GapConstraints() = default;
 
-void GapConstraints::build(const Polyline& nodes, std::vector<std::vector<GapConstraint>>& segments) {
+void GapConstraints::build(const Polyline& nodes, SegmentGapConstraints& segments) {
   const std::size_t count = nodes.size() - 1;
   segments.resize(count);
   smallest_.assign(count, options_.reach);
@@ -150,31 +154,24 @@ void GapConstraints::build(const Polyline& nodes, std::vector<std::vector<GapCon
 }
 
 void GapConstraints::follow(const Polyline& nodes, double barrier, bool keep_slacks) {
-  const std::vector<std::vector<GapConstraint>> before = std::move(segments_);
+  const SegmentGapConstraints before = std::move(segments_);
   build(nodes, segments_);
-  for (std::size_t k = 0; k < segments_.size(); ++k) {
-    std::size_t next = 0;
+  for (std::size_t k = 0; k < segments_.size(); ++k)
     for (GapConstraint& now : segments_[k]) {
-      while (k < before.size() && next < before[k].size() && before[k][next].key < now.key) ++next;
-      const bool known = k < before.size() && next < before[k].size() && before[k][next].key == now.key;
-      now.slack = std::max(now.gap, known && keep_slacks ? before[k][next].slack : std::sqrt(barrier));
+      const GapConstraint* const known = same_constraint(before[k], now);
+      now.slack = std::max(now.gap, known && keep_slacks ? known->slack : std::sqrt(barrier));
       const double central = barrier / now.slack;
-      now.stiffness = known ? before[k][next].multiplier / now.distance : 0.0;
-      now.multiplier = known ? std::clamp(before[k][next].multiplier, central / neighbourhood, central * neighbourhood) : central;
+      now.stiffness = known ? known->multiplier / now.distance : 0.0;
+      now.multiplier = known ? std::clamp(known->multiplier, central / neighbourhood, central * neighbourhood) : central;
     }
-  }
 }
 
-std::vector<std::vector<GapConstraint>> GapConstraints::at(const Polyline& nodes) {
-  std::vector<std::vector<GapConstraint>> result;
+SegmentGapConstraints GapConstraints::at(const Polyline& nodes) {
+  SegmentGapConstraints result;
   build(nodes, result);
-  for (std::size_t k = 0; k < result.size() && k < segments_.size(); ++k) {
-    auto known = segments_[k].begin();
-    for (GapConstraint& now : result[k]) {
-      known = std::lower_bound(known, segments_[k].end(), now, by_key);
-      if (known != segments_[k].end() && known->key == now.key) now.multiplier = known->multiplier;
-    }
-  }
+  for (std::size_t k = 0; k < result.size(); ++k)
+    for (GapConstraint& now : result[k])
+      if (const GapConstraint* const known = same_constraint(segments_[k], now)) now.multiplier = known->multiplier;
   return result;
 }
 

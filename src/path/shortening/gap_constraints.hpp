@@ -30,6 +30,7 @@ struct GapConstraint {
   double multiplier = 0.0;  // the force along the gap
   double slack_step = 0.0, multiplier_step = 0.0;
 
+  // How much wider moves of both nodes, null for an end of the path, make the gap.
   double change(const double* before, const double* behind) const {
     double sum = 0.0;
     for (std::size_t sphere = 0; sphere < 2; ++sphere)
@@ -39,6 +40,7 @@ struct GapConstraint {
       }
     return sum;
   }
+  // How far they move the closest approach along its segment.
   double turn(const double* before, const double* behind) const {
     double sum = 0.0;
     for (std::size_t sphere = 0; sphere < 2; ++sphere)
@@ -58,6 +60,9 @@ struct GapConstraint {
       for (std::size_t axis = 0; axis < 3; ++axis) out[at[sphere] + axis] += force * turns[node][sphere][axis];
   }
 };
+
+// Of each segment of a path.
+using SegmentGapConstraints = std::vector<std::vector<GapConstraint>>;
 
 // The kinematic coordinates of the spheres without the padding of a layout: x y z of one sphere after the other.
 class SphereCoordinates {
@@ -87,16 +92,15 @@ class GapConstraints {
   GapConstraints(const HardSpherePath& path, const Options& options);
   ~GapConstraints();
 
-  // Follows the nodes. Slacks are those of before, where asked for, or fit the barrier, but at least the gaps. Multipliers are
-  // those of before, as far as their product with the slack is near the barrier; new ones fit it.
+  // Follows the nodes, as many as begin() has been told. Slacks are those of before, where asked for, or fit the barrier, but at
+  // least the gaps. Multipliers are those of before, as far as their product with the slack is near the barrier; new ones fit it.
   void follow(const Polyline& nodes, double barrier, bool keep_slacks);
   // The constraints of other nodes, with the multipliers of these.
-  std::vector<std::vector<GapConstraint>> at(const Polyline& nodes);
+  SegmentGapConstraints at(const Polyline& nodes);
   // Of any pair on any segment of the nodes that were looked at last, at most the reach [sigma].
   double smallest_gap() const;
 
-  const std::vector<std::vector<GapConstraint>>& of_segments() const { return segments_; }
-  std::vector<std::vector<GapConstraint>>& of_segments() { return segments_; }
+  SegmentGapConstraints& of_segments() { return segments_; }
   // Forgets all constraints, of a path of this many segments.
   void begin(std::size_t segments) { segments_.assign(segments, {}); }
   const SphereCoordinates& coordinates() const { return coordinates_; }
@@ -107,7 +111,7 @@ class GapConstraints {
  private:
   struct Scratch;
   class Builder;
-  void build(const Polyline& nodes, std::vector<std::vector<GapConstraint>>& segments);
+  void build(const Polyline& nodes, SegmentGapConstraints& segments);
 
   Box box_;
   KinematicMetric metric_;
@@ -116,7 +120,7 @@ class GapConstraints {
   AlignedArray scale_;  // dr/dq of each coordinate of the layout
   std::vector<std::unique_ptr<Scratch>> scratch_;
   std::uint64_t evaluations_ = 0;
-  std::vector<std::vector<GapConstraint>> segments_;
+  SegmentGapConstraints segments_;
   std::vector<double> smallest_;  // gap of each segment
 };
 

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/slot_point.hpp"
 #include "path/bend.hpp"
 
 namespace lanescape {
@@ -16,6 +15,7 @@ namespace {
 constexpr double reach = 0.8;              // of gaps that have constraints
 constexpr double margin = 1e-8;            // of gaps: more than the square of the last moves
 constexpr double largest_overlap = 5e-10;  // of the path that is handed out
+constexpr double longest_move = 0.36;      // of a sphere: two that meet from beyond the reach do not touch
 // Of products of slacks and multipliers [mean segment squared]. The barrier falls by a factor an iteration, but no faster than the
 // square of the residual.
 constexpr double first_barrier = 1e-4, later_barrier = 1e-6, last_barrier = 1e-9, tight_barrier = 1e-12, barrier_decay = 0.85;
@@ -29,7 +29,8 @@ constexpr double furthest = 0.16;              // that an iteration starts ahead
 constexpr double last_damping = 1.0;           // of the last moves, that of a node held by strings of its own
 constexpr int few_steps = 4, most_steps = 40;  // of the interior-point method, while the barrier falls and after
 constexpr std::uint64_t most_level_iterations = 400, most_tight_iterations = 20;
-constexpr double matrix_memory = 4.0 * 1024 * 1024 * 1024;
+constexpr double matrix_memory = 4.0 * 1024 * 1024 * 1024;  // [bytes]
+constexpr double contact_gap = 5e-7;  // of pairs that touch [smallest diameter]: half of what the certificate takes for a contact
 
 }  // namespace
 
@@ -41,7 +42,7 @@ HardCurve::HardCurve(const HardSpherePath& path, const HardCurveOptions& options
       isa_(path.isa),
       options_(options),
       algebra_(kernel_table(path.isa)),
-      contact_(5e-7 * 2.0 * *std::min_element(path.radii.begin(), path.radii.end())),
+      contact_(contact_gap * 2.0 * *std::min_element(path.radii.begin(), path.radii.end())),
       gaps_(HardSpherePath{box_, layout_, radii_, metric_, isa_},
             {reach * options.length_unit, margin * options.length_unit, options.threads}) {
   if (most_nodes() < 3)
@@ -117,7 +118,7 @@ double HardCurve::move() {
       for (std::size_t c = 0; c < y.size(); c += 3) largest = std::max(largest, std::hypot(y[c], y[c + 1], y[c + 2]));
     return largest;
   };
-  const double most = 0.45 * reach * options_.length_unit, wanted = longest(interior_->moves());
+  const double most = longest_move * options_.length_unit, wanted = longest(interior_->moves());
   const double share = wanted > most ? most / wanted : 1.0;
   last_ = std::move(now_);
   now_ = from_;
@@ -149,9 +150,9 @@ void HardCurve::look_ahead(double longest) {
 
 // The Kuhn-Tucker residual by the multipliers of the last iteration. Of the path handed out, only pairs that touch have any.
 void HardCurve::judge() {
-  const std::vector<std::vector<GapConstraint>> segments = gaps_.at(now_);
+  const SegmentGapConstraints segments = gaps_.at(now_);
   const SphereCoordinates& coordinates = gaps_.coordinates();
-  const double unit = margin * options_.length_unit;
+  const double taken_off = margin * options_.length_unit;
   BendNorms norms(now_.size());
   Bend bend(algebra_, now_);
   std::vector<double> rest(coordinates.dimension());
@@ -160,7 +161,7 @@ void HardCurve::judge() {
     for (std::size_t c = 0; c < rest.size(); ++c) rest[c] = tau[coordinates.slot_coordinate(c)];
     for (std::size_t node = 0; node < 2; ++node)
       for (const GapConstraint& c : segments[node == 1 ? k - 1 : k]) {
-        if (tightening_ == 0 || c.gap + unit < contact_) c.push(node, c.multiplier / mean_, rest.data());
+        if (tightening_ == 0 || c.gap + taken_off < contact_) c.push(node, c.multiplier / mean_, rest.data());
       }
     double squared = 0.0;
     for (const double x : rest) squared += x * x;
@@ -197,7 +198,7 @@ void HardCurve::exchange(Archive& archive) {
   archive.field("node_count", count);
   if (archive.reading()) {
     allocate(count);
-    for (Polyline* line : {&now_, &from_, &last_}) line->assign(count, AlignedArray(layout_.dimension(), 0.0));
+    for (Polyline* line : {&now_, &from_}) line->assign(count, AlignedArray(layout_.dimension(), 0.0));
   }
   exchange_nodes(archive, "nodes", now_);
   exchange_nodes(archive, "next_start", from_);

@@ -10,7 +10,7 @@
 namespace lanescape {
 namespace {
 
-constexpr double least_stiffness = 1e-9;  // of turns, of which the rest have none worth the time
+constexpr double least_stiffness = 1e-9;  // of turns that are taken into account
 constexpr double most_of_the_way = 0.99;  // to where a slack or a multiplier vanishes
 
 double norm(const AlignedArray& x) { return std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.0)); }
@@ -169,7 +169,7 @@ void InteriorPoint::take_step(Segments& segments, const Lengths& lengths) {
   });
 }
 
-bool InteriorPoint::solve(const String& string, Segments& segments, const Goal& goal) {
+void InteriorPoint::solve(const String& string, Segments& segments, const Goal& goal) {
   for (AlignedArray& move : moves_) std::fill(move.begin(), move.end(), 0.0);
   for (int steps = 0; steps < goal.most_steps; ++steps) {
     const double now = complementarity(segments, {0.0, 0.0});
@@ -177,7 +177,7 @@ bool InteriorPoint::solve(const String& string, Segments& segments, const Goal& 
     if (steps > 0 && now <= 2.0 * goal.barrier && largest_rest() <= goal.force && largest_violation(segments) <= goal.violation)
       break;
     assemble(string, segments);
-    if (!matrix_.factor()) return steps > 0;
+    if (!matrix_.factor()) return;
     const double predicted = complementarity(segments, find_step(segments, 0.0, false));
     const double share = now > 0.0 ? predicted / now : 0.0;
     Lengths lengths = find_step(segments, std::max(share * share * share * now, goal.barrier), true);
@@ -185,7 +185,6 @@ bool InteriorPoint::solve(const String& string, Segments& segments, const Goal& 
       if (*length < 1.0) *length *= most_of_the_way;
     take_step(segments, lengths);
   }
-  return true;
 }
 
 }  // namespace lanescape

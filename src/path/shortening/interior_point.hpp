@@ -29,13 +29,13 @@ class InteriorPoint {
   // For paths of this many nodes, ends included.
   InteriorPoint(const kernels::KernelTable& kernels, std::size_t nodes, std::size_t dimension, int threads);
 
-  // Moves slacks and multipliers along. Returns false where no step was possible.
-  bool solve(const String& string, std::vector<std::vector<GapConstraint>>& segments, const Goal& goal);
+  // Moves slacks and multipliers along. Ends early where rounding leaves the matrix not positive definite.
+  void solve(const String& string, SegmentGapConstraints& segments, const Goal& goal);
   // y of each inner node.
   const std::vector<AlignedArray>& moves() const { return moves_; }
 
  private:
-  using Segments = std::vector<std::vector<GapConstraint>>;
+  using Segments = SegmentGapConstraints;
   struct Lengths {
     double primal = 1.0, dual = 1.0;
   };

@@ -19,6 +19,7 @@ constexpr double longest_correction = 0.1;       // of a node in one move back a
 constexpr double curvature_displacement = 0.01;  // for differences of gradients: smooths the jumps at cutoffs
 // Of steps before the curvature of V is known, in units of 1/length^2. Below 3 they swing to and fro across narrow valleys.
 constexpr double damping = 4.0;
+constexpr double stationary_residual = 5e-3;  // of PHYSICS 4, below which a path has come to rest
 constexpr double smallest_trust = 1e-7;
 constexpr int most_improvements = 60;
 constexpr double allowed_violation = 2.5e-4;  // of V - E_L on a segment that tighten() lets stand [epsilon]
