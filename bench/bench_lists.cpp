@@ -15,7 +15,6 @@
 // points, positions and gradients once each; `bytes_per_particle` that the list and all that belongs to it take.
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <chrono>
 #include <cmath>
@@ -25,6 +24,7 @@
 #include <string_view>
 
 #include "bench_support.hpp"
+#include "core/available_threads.hpp"
 #include "interaction/pair/pair_interaction.hpp"
 #include "io/extended_xyz.hpp"
 #include "neighbour/neighbour_list.hpp"
@@ -278,7 +278,7 @@ void contour_step(benchmark::State& state, const Setting& setting) {
 
 std::vector<int> thread_counts() {
   std::vector<int> counts;
-  for (int t = 1; t <= omp_get_max_threads(); t *= 2) counts.push_back(t);
+  for (int t = 1; t <= default_threads(); t *= 2) counts.push_back(t);
   return counts;
 }
 

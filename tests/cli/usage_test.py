@@ -1,5 +1,6 @@
 """Usage: subcommands, help, messages, threads and instruction sets."""
 
+import os
 import re
 import subprocess
 import unittest
@@ -7,7 +8,7 @@ import unittest
 import numpy
 
 from cli_support import (PROGRAM, DATA, SUBCOMMANDS, COMMON_OPTIONS, ARGON, TINY, TWO, ProgramTest, environment, frame,
-                         lanescape, without_seconds)
+                         lanescape, one_object, without_seconds)
 
 
 class Usage(ProgramTest):
@@ -54,6 +55,11 @@ class Usage(ProgramTest):
     def test_threads_come_from_the_flag_or_else_the_environment(self):
         self.assertEqual(self.done("info", OMP_NUM_THREADS="3")["threads"], 3)
         self.assertEqual(self.done("info", "--threads", "2", OMP_NUM_THREADS="3")["threads"], 2)
+
+    def test_threads_are_those_of_the_affinity_mask_by_default(self):
+        processor = min(os.sched_getaffinity(0))
+        run = subprocess.run(["taskset", "-c", str(processor), PROGRAM, "info"], capture_output=True, text=True, env=environment())
+        self.assertEqual(one_object(run.stdout)["threads"], 1)
 
     def test_stdout_that_cannot_be_written_is_an_internal_error(self):
         with open("/dev/full", "w") as full:

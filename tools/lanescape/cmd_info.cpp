@@ -1,5 +1,3 @@
-#include <omp.h>
-
 #include <fstream>
 
 #include "lanescape/lanescape.hpp"

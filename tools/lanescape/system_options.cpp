@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "configuration/model_traits.hpp"
+#include "core/available_threads.hpp"
 #include "core/error.hpp"
 #include "core/overloaded.hpp"
 #include "interaction/sphere/rounding_overlaps.hpp"
@@ -23,9 +23,9 @@
 namespace lanescape::program {
 
 void CommonOptions::add_to(Options& options) {
-  threads = omp_get_max_threads();
+  threads = default_threads();
   options.add("--seed", seed, "seed of all random numbers");
-  options.add("--threads", threads, "threads; default OMP_NUM_THREADS, else all");
+  options.add("--threads", threads, "threads; default OMP_NUM_THREADS, else the processors that this process may use");
   options.add("--isa", isa, "instruction set: auto, sse2, avx2, avx512; wins over LANESCAPE_ISA");
   options.add_unsaved("--quiet", quiet, "no progress bar, no messages");
   options.add_unsaved("--config", config, "run file (TOML) with any of these options; flags win");
