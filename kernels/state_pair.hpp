@@ -39,19 +39,16 @@ LANESCAPE_INLINE Vector where(Mask m, Vector v) { return select(m, v, broadcast(
 
 // Where an argument lies in a spline: offsets of the intervals' first records, and the position within the interval.
 struct SplinePlace {
-  WholeLanes intervals;
+  WholeLanes offsets;  // of the first record of each lane's interval
   Vector s;
-  std::uint32_t stride;  // from interval to interval, in doubles
-  // Offset of the first record of a lane's interval.
-  std::uint32_t operator[](std::size_t lane) const { return intervals.of(lane) * stride; }
+  std::uint32_t operator[](std::size_t lane) const { return offsets[lane]; }
 };
 
 // `x` is in units of intervals; values not below their number, and NaN, map to the end. `width`: records per interval.
 LANESCAPE_INLINE void find_place(SplinePlace& place, Vector x, Vector intervals, std::size_t width) {
   x = select(less(x, intervals), x, intervals);
   // A knot may be the end of one interval or the start of the next: the spline has the same value in both.
-  place.s = x - store_nearest_whole(place.intervals, x - broadcast(0.5));
-  place.stride = static_cast<std::uint32_t>(width * point_width);
+  place.s = x - store_nearest_whole(place.offsets, x - broadcast(0.5), static_cast<double>(width * point_width));
 }
 
 LANESCAPE_INLINE Vector spline_value(Vector s, Vector b, Vector c, Vector d, Vector a) {

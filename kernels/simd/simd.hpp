@@ -94,23 +94,20 @@ inline double reduce_min(Vector v) noexcept { return 0.0 - reduce_max(broadcast(
 inline void prefetch(const void* p) noexcept { __builtin_prefetch(p); }
 inline void prefetch_for_write(void* p) noexcept { __builtin_prefetch(p, 1); }
 
-// Whole numbers that lanes are rounded to, one by one in memory: what takes them out of a vector register costs more.
+// Whole numbers that lanes are rounded to, one by one in memory: what takes them out of a vector register costs more. In 32 bits, so
+// that they are at most 32 bytes: loads from the upper half of a store of 64 bytes wait until it has left the store buffer.
 struct WholeLanes {
-  alignas(64) double shifted[lanes];
-  std::uint32_t of(std::size_t lane) const noexcept {
-    std::uint64_t bits;
-    __builtin_memcpy(&bits, shifted + lane, sizeof bits);
-    return static_cast<std::uint32_t>(bits);
-  }
+  alignas(32) std::int32_t lane[lanes];
+  std::uint32_t operator[](std::size_t k) const noexcept { return static_cast<std::uint32_t>(lane[k]); }
 };
 
-// The whole number nearest to each lane, ties to even. 0 <= v < 2^31.
-inline Vector store_nearest_whole(WholeLanes& out, Vector v) noexcept {
-  // 1.5 x 2^52 leaves no bits for a fraction: the lowest bits of the sum are the number.
-  const Vector shifted = broadcast(6755399441055744.0), sum = v + shifted;
-  store(out.shifted, sum);
-  asm volatile("" : "+m"(out.shifted));
-  return sum - shifted;
+// The whole number nearest to each lane, ties to even, and `factor` times it. 0 <= v, factor * v < 2^31.
+inline Vector store_nearest_whole(WholeLanes& out, Vector v, double factor) noexcept {
+  // 1.5 x 2^52 leaves no bits for a fraction.
+  const Vector shifted = broadcast(6755399441055744.0), whole = (v + shifted) - shifted;
+  store_wrapped(out.lane, whole * broadcast(factor));
+  asm volatile("" : "+m"(out.lane));
+  return whole;
 }
 
 // Whole boxes left out, what is left of a coordinate in box lengths as a 32-bit fraction; one half wraps to minus one half.

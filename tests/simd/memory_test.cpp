@@ -218,12 +218,15 @@ TEST_P(Memory, FractionsOfTheBoxWrapAround) {
 TEST_P(Memory, KeepsWholeNumbersLaneByLane) {
   const std::vector<double> numbers{0.0, 0.5, 1.5, 2.5, 3.49, 1023.75, 2147483646.5, 2147483647.0, 77.0};
   for_each_pair(numbers, lanes(), [&](const Lanes<double>& v, const Lanes<double>&) {
-    Lanes<std::uint32_t> out{};
+    Lanes<std::uint32_t> out{}, multiples{};
     Lanes<double> whole{};
-    simd().store_nearest_whole(out.data(), whole.data(), v.data());
+    simd().store_nearest_whole(out.data(), whole.data(), v.data(), 1.0);
+    simd().store_nearest_whole(multiples.data(), whole.data(), v.data(), 0.25);
     for (std::size_t k = 0; k < lanes(); ++k) {
-      EXPECT_EQ(whole[k], std::nearbyint(v[k]));
-      EXPECT_EQ(out[k], static_cast<std::uint32_t>(std::nearbyint(v[k])));
+      const double nearest = std::nearbyint(v[k]);
+      EXPECT_EQ(whole[k], nearest);
+      EXPECT_EQ(out[k], static_cast<std::uint32_t>(nearest));
+      EXPECT_EQ(multiples[k], static_cast<std::uint32_t>(std::nearbyint(0.25 * nearest)));
     }
   });
 }

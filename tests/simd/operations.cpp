@@ -104,10 +104,10 @@ void gather_quads_of(const double* base, const std::uint32_t* offset, double* ou
   store(out + 2 * lanes, z);
   store(out + 3 * lanes, w);
 }
-void store_nearest_whole_of(std::uint32_t* out, double* whole, const double* v) noexcept {
+void store_nearest_whole_of(std::uint32_t* out, double* whole, const double* v, double factor) noexcept {
   WholeLanes numbers;
-  store(whole, store_nearest_whole(numbers, load(v)));
-  for (std::size_t k = 0; k < lanes; ++k) out[k] = numbers.of(k);
+  store(whole, store_nearest_whole(numbers, load(v), factor));
+  for (std::size_t k = 0; k < lanes; ++k) out[k] = numbers[k];
 }
 void gather_differences_of(const std::int32_t* base, const std::uint32_t* offset, const std::int32_t* origin, float* out) noexcept {
   FloatVector x, y, z;

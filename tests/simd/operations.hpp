@@ -53,7 +53,7 @@ struct SimdOperations {
   void (*store_truncated)(std::int32_t* out, const double* v);
   void (*store_wrapped)(std::int32_t* out, const double* v);
   void (*store_fractions)(std::int32_t* out, const double* v);
-  void (*store_nearest_whole)(std::uint32_t* out, double* whole, const double* v);
+  void (*store_nearest_whole)(std::uint32_t* out, double* whole, const double* v, double factor);
 
   void (*wrapped_difference)(const std::int32_t* p, std::int32_t s, float* out);
   void (*gather_differences)(const std::int32_t* base, const std::uint32_t* offset, const std::int32_t* origin,
