@@ -11,7 +11,7 @@
 // Counters: `ns_per_particle` per evaluation or step; `ns_per_pair` per pair within the cutoff, each counted once; `gflops` of the
 // operations that such a pair needs at least, 15 multiply-adds (bench_landscape.cpp), 6 for the energy alone; `fraction_of_peak`
 // relative to the measured rate of these operations on as many cores; `flops_per_byte`, where list, points, positions and gradients
-// count once each; `bytes_per_particle` of the list and its data.
+// count once each; `bytes_per_particle` of the list and its data. The context has peak_gflops and memory_gb_per_second of one core.
 // points, positions and gradients once each; `bytes_per_particle` that the list and all that belongs to it take.
 
 #include <fmt/format.h>
@@ -329,6 +329,8 @@ int run(int argc, char** argv) {
   benchmark::AddCustomContext("peak_gflops",
                               fmt::format("{:.1f}", 2e-9 * static_cast<double>(kernel_table(choose_isa("auto")).lanes) /
                                                         seconds_per_vector_instruction(choose_isa("auto"))));
+  benchmark::AddCustomContext("memory_gb_per_second",
+                              fmt::format("{:.1f}", 1e-9 * bytes_per_second_from_memory(choose_isa("auto"))));
   if (!file.empty()) {
     const PairModel model = named_pair_model(chosen.empty() ? "kob-andersen" : chosen);
     const Configuration configuration = read_frames(file, model).front().configuration;

@@ -109,6 +109,19 @@ inline double seconds_per_vector_instruction(Isa isa) {
   return measured.emplace(isa, best).first->second;
 }
 
+// Bytes per second that one core reads from memory: the best of several passes over an array that no cache holds.
+inline double bytes_per_second_from_memory(Isa isa) {
+  const std::size_t count = std::size_t{1} << 24;  // 128 MiB each
+  const AlignedArray a(count, 1.0), b(count, 1.0);
+  double best = 1e300;
+  for (int run = 0; run < 4; ++run) {
+    const auto start = std::chrono::steady_clock::now();
+    benchmark::DoNotOptimize(kernel_table(isa).dot(a.data(), b.data(), count));
+    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  return static_cast<double>(2 * count * sizeof(double)) / best;
+}
+
 // Registers a benchmark of one whole run that sets its own time.
 template <class Function>
 void register_run(const std::string& name, Function function) {

@@ -2,11 +2,13 @@
 """Draw the benchmark of neighbour lists: tools/plot_bench.py BENCH.json [--peers PEERS.json] --out DIR
 
 BENCH.json is the JSON that Google Benchmark writes for bench_lists at several sizes, with or without repetitions. PEERS.json is the JSON
-that bench/peers/lammps.py writes. Writes into DIR:
+that bench/peers/report.py or one of the drivers beside it writes. Writes into DIR:
   scaling.png    time per particle (counter ns_per_particle) against the number of particles, a panel for each case, peers included
-  roofline.png   speed against arithmetic intensity with the measured peak of a core, from the counters flops_per_byte and gflops (of all
-                 threads) and the context peak_gflops (of one core). Without these counters it shows the share of the measured peak
-                 (fraction_of_peak) against the number of particles. Without that counter it is not drawn
+  threads.png    strong scaling: time per particle and speed-up of forces and steps against the number of cores, a line for each size, peers
+                 by their fastest variant, and the ideal. Only where there are results for one thread and for more
+  roofline.png   speed against arithmetic intensity with the measured peak and memory bandwidth of a core, from the counters flops_per_byte
+                 and gflops (of all threads) and the context peak_gflops and memory_gb_per_second (of one core). Without these counters it
+                 shows the share of the measured peak (fraction_of_peak) against the number of particles. Without that counter it is not drawn
   peers.png      time of the peers over time of Lanescape, by case and size; only with --peers
 
 The figures show the widest instruction set in the file. Points are medians of repetitions, bars their range.
@@ -19,91 +21,16 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter, NullLocator
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from benchmark_results import ISAS, MODELS, Arguments, parts_of, read_json, read_results, repetitions, value
-from plot_style import BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILLION, plt, save
+from bench_figures import (CASE_NAMES, PEER_COLOURS, bandwidth_of, cores, in_order, panel_title, panels_of, particle_number, peak_of,
+                           plain_numbers, read_bench, read_peers, shared_legend, style_of, threads_of)
+from benchmark_results import MODELS, Arguments
+from plot_style import BLUE, GREEN, GREY, ORANGE, PURPLE, SKY_BLUE, VERMILLION, plt, save
+from plot_threads import draw_threads
 from unusable import Unusable, exit_status
 
-# Colours stand for codes, lines and markers for numbers of threads.
-PEER_COLOURS = (VERMILLION, GREEN, PURPLE, ORANGE)
-MARKERS, LINES = ("o", "s", "^", "D", "v"), ("-", "--", "-.", ":", (0, (1, 3)))
-CASE_NAMES = {"force": "Force", "force+energy+virial": "Force, energy and virial", "energy": "Energy", "step": "Molecular dynamics step"}
-
 plt.rcParams.update({"axes.titlesize": 14, "lines.markersize": 7})
-
-
-def read_bench(file):
-    """The context, a point for each benchmark of the widest instruction set, and the name of that set.
-
-    A point holds case, model, number of particles, threads, isa, samples [ns per particle] and the other counters.
-    """
-    data = read_results(file)
-    points = []
-    for name, entries in repetitions(data, file).items():
-        parts = parts_of(name)
-        if not isinstance(parts.get("N"), int):
-            raise Unusable(f"{file}: {name}: no number of particles in the name (N:<number>)")
-        point = {"case": parts["case"], "model": parts.get("model"), "particles": parts["N"], "threads": parts.get("threads", 1),
-                 "isa": parts.get("isa"), "samples": [value(entry, "ns_per_particle", file) for entry in entries]}
-        for counter in ("fraction_of_peak", "flops_per_byte", "gflops"):
-            if all(counter in entry for entry in entries):
-                point[counter] = statistics.median(value(entry, counter, file) for entry in entries)
-        points.append(point)
-    isas = [point["isa"] for point in points]
-    best = next((isa for isa in ISAS if isa in isas), None)
-    return data.get("context", {}), [point for point in points if point["isa"] == best], best
-
-
-def read_peers(file):
-    """The rows of other codes, checked."""
-    report = read_json(file)
-    rows = report.get("results") if isinstance(report, dict) else None
-    if not isinstance(rows, list) or not rows:
-        raise Unusable(f"{file}: no list 'results' of peers in it")
-    for row in rows:
-        for key, kind in (("case", str), ("model", str), ("particles", int), ("threads", int), ("code", str), ("variant", str),
-                          ("samples", list)):
-            if not isinstance(row, dict) or not isinstance(row.get(key), kind):
-                raise Unusable(f"{file}: a result without {key}")
-        if not row["samples"] or not all(isinstance(x, (int, float)) and math.isfinite(x) and x > 0 for x in row["samples"]):
-            raise Unusable(f"{file}: {row['code']} {row['variant']}, N = {row['particles']}: times must be finite numbers above 0")
-        ratio = row.get("ratio")
-        if ratio is not None and not (isinstance(ratio, (int, float)) and math.isfinite(ratio) and ratio > 0):
-            raise Unusable(f"{file}: {row['code']} {row['variant']}, N = {row['particles']}: the ratio must be a number above 0, or null")
-    return [row for row in rows if row["code"] != "lanescape"]
-
-
-def peak_of(context, isa):
-    """Measured peak of one core [GFLOP/s] from the context: `peak_gflops`, or for example `peak avx2`. None if there is none."""
-    try:
-        peak = float(str(context.get("peak_gflops", context.get(f"peak {isa}", ""))).split()[0])
-    except (ValueError, IndexError):
-        return None
-    return peak if math.isfinite(peak) and peak > 0 else None
-
-
-def in_order(values, first=()):
-    """The values without repetition: those in `first` in its order, then the others in theirs."""
-    return sorted(dict.fromkeys(values), key=lambda v: first.index(v) if v in first else len(first))
-
-
-def threads_of(rows):
-    return sorted({row["threads"] for row in rows})
-
-
-def style_of(threads, all_threads):
-    k = all_threads.index(threads) % len(MARKERS)
-    return {"marker": MARKERS[k], "linestyle": LINES[k]}
-
-
-def cores(count):
-    """The number of cores for a legend: one for each thread or process."""
-    return f"{count} core{'s' if count > 1 else ''}"
-
-
-def particle_number(n, _=None):
-    return f"{n:g}" if n < 10_000 else f"{n / 1000:g}k" if n < 1_000_000 else f"{n / 1e6:.2g}M"
 
 
 def draw_line(axes, rows, colour, label, style):
@@ -125,38 +52,6 @@ def particle_axis(axes, sizes):
     axes.xaxis.set_major_formatter(FuncFormatter(particle_number))
     axes.xaxis.set_minor_locator(NullLocator())
     axes.set_xlabel("Particles $N$")
-
-
-def plain_numbers(axis):
-    """Labels 1, 2, 5, 10, ... on a logarithmic axis."""
-    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0), numticks=30))
-    axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
-    axis.set_minor_formatter(NullFormatter())
-
-
-def shared_legend(figure, axes_list, columns):
-    """One legend for all panels, above them. Labels of the same code stand together, because columns are filled first."""
-    found = {}
-    for axes in axes_list:
-        for handle, label in zip(*axes.get_legend_handles_labels()):
-            found.setdefault(label, handle)
-    order = in_order([label.split(",")[0] for label in found])
-    found = dict(sorted(found.items(), key=lambda item: order.index(item[0].split(",")[0])))
-    figure.legend(found.values(), found.keys(), loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=min(columns, len(found)),
-                  borderaxespad=0.2, handlelength=2.6)
-
-
-def panels_of(points):
-    """The (model, case) of each panel. The model is None if the names of the benchmarks do not contain it."""
-    models = in_order([point["model"] for point in points], tuple(MODELS))
-    cases = in_order([point["case"] for point in points], tuple(CASE_NAMES))
-    present = {(point["model"], point["case"]) for point in points}
-    return [(m, c) for m in models for c in cases if (m, c) in present]
-
-
-def panel_title(model, case):
-    name = CASE_NAMES.get(case, case)
-    return f"{MODELS[model]}:\n{name}" if model else name
 
 
 def draw_scaling(file, points, peers, isa):
@@ -195,26 +90,43 @@ def draw_scaling(file, points, peers, isa):
     save(figure, file)
 
 
-def draw_roofline(file, points, peak, isa):
-    """Speed against arithmetic intensity. The roof is the measured peak; the slope of the memory bandwidth is not drawn."""
-    figure, axes = plt.subplots(figsize=(8.5, 5.2), layout="constrained")
+def draw_speeds(axes, points):
+    """A marker for each benchmark: colours stand for liquids and cases, markers for numbers of cores, as the legend says."""
     threads, panels = threads_of(points), panels_of(points)
-    colours = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, GREY)
+    colours = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY_BLUE, "#000000", GREY)
     for k, (model, case) in enumerate(panels):
+        colour = colours[k % len(colours)]
+        axes.plot([], [], color=colour, marker="s", linestyle="none", label=panel_title(model, case).replace("\n", " "))
         for t in threads:
-            chosen = sorted((p for p in points if (p["model"], p["case"], p["threads"]) == (model, case, t)), key=lambda p: p["particles"])
-            if chosen:
-                axes.plot([p["flops_per_byte"] for p in chosen], [p["gflops"] / t for p in chosen], color=colours[k % len(colours)],
-                          markerfacecolor="white", markeredgewidth=1.8, label=panel_title(model, case).replace("\n", " ") + f", {cores(t)}",
-                          marker=style_of(t, threads)["marker"], linestyle="none")
+            chosen = [p for p in points if (p["model"], p["case"], p["threads"]) == (model, case, t)]
+            axes.plot([p["flops_per_byte"] for p in chosen], [p["gflops"] / t for p in chosen], color=colour, markerfacecolor="white",
+                      markeredgewidth=1.8, marker=style_of(t, threads)["marker"], linestyle="none")
+    for t in threads:
+        axes.plot([], [], color=GREY, markerfacecolor="white", markeredgewidth=1.8, marker=style_of(t, threads)["marker"], linestyle="none",
+                  label=cores(t))
+
+
+def draw_roofline(file, points, roof, isa):
+    """Speed against arithmetic intensity, under the measured peak and the slope of the memory bandwidth, as far as they are known."""
+    peak, bandwidth = roof
+    figure, axes = plt.subplots(figsize=(8.5, 5.6), layout="constrained")
+    draw_speeds(axes, points)
     intensities = [p["flops_per_byte"] for p in points]
     low, high = min(intensities) / 3.0, max(intensities) * 3.0
+    if peak and bandwidth:
+        high = max(high, 2.0 * peak / bandwidth)  # the ridge is in the figure
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlim(low, high)
-    if peak:
-        axes.plot([low, high], [peak, peak], color=GREY, linewidth=1.5, label=f"Measured peak{f' ({isa})' if isa else ''}: {peak:.3g} GFLOP/s")
     speeds = [p["gflops"] / p["threads"] for p in points] + ([peak] if peak else [])
+    if bandwidth:
+        ridge = min(high, peak / bandwidth) if peak else high
+        axes.plot([low, ridge], [bandwidth * low, bandwidth * ridge], color=GREY, linewidth=1.5, linestyle="--",
+                  label=f"Measured memory bandwidth: {bandwidth:.3g} GB/s")
+        speeds.append(bandwidth * low)
+    if peak:
+        axes.plot([max(low, peak / bandwidth) if bandwidth else low, high], [peak, peak], color=GREY, linewidth=1.5,
+                  label=f"Measured peak{f' ({isa})' if isa else ''}: {peak:.3g} GFLOP/s")
     axes.set_ylim(min(speeds) / 2.0, max(speeds) * 1.5)
     plain_numbers(axes.xaxis)
     plain_numbers(axes.yaxis)
@@ -269,6 +181,7 @@ def draw_peers(file, peers):
             middle = statistics.mean(x for (c, _), x in places.items() if c == case)
             axes.annotate(CASE_NAMES.get(case, case), (middle, 0.0), (0, -24), xycoords=("data", "axes fraction"), textcoords="offset points",
                           ha="center", va="top", fontsize=12)
+        axes.set_xlim(-0.6, place + 0.6)
         axes.tick_params(axis="x", length=0)
         axes.set_ylim(0.0, top)
         axes.set_ylabel("Time of peer /\ntime of Lanescape")
@@ -287,10 +200,11 @@ def draw(options):
     except OSError as error:
         raise Unusable(f"{options.out}: {error.strerror}") from error
     draw_scaling(options.out / "scaling.png", points, peers, isa)
+    draw_threads(options.out / "threads.png", points, peers, isa)
     roof = [point for point in points if "flops_per_byte" in point and "gflops" in point]
     shares = [point for point in points if "fraction_of_peak" in point]
     if roof:
-        draw_roofline(options.out / "roofline.png", roof, peak_of(context, isa), isa)
+        draw_roofline(options.out / "roofline.png", roof, (peak_of(context, isa), bandwidth_of(context)), isa)
     elif shares:
         draw_fraction(options.out / "roofline.png", shares, isa)
     if any(row.get("ratio") is not None for row in peers):
@@ -300,7 +214,7 @@ def draw(options):
 def main(arguments):
     parser = Arguments(prog="plot_bench.py", description="Draws the benchmark of neighbour lists; the head of this file describes them.")
     parser.add_argument("bench", metavar="BENCH.json")
-    parser.add_argument("--peers", metavar="PEERS.json", help="of bench/peers/lammps.py")
+    parser.add_argument("--peers", metavar="PEERS.json", help="of bench/peers/report.py or a driver")
     parser.add_argument("--out", metavar="DIR", type=Path, required=True, help="the folder of the figures")
     return exit_status("plot_bench.py", lambda: draw(parser.parse_args(arguments)))
 

@@ -10,7 +10,7 @@ extended XYZ for Lanescape and as a data file for LAMMPS. Then
        force+energy+virial   the same with energy and pressure at every step
        step                  the loop time of molecular dynamics. Lists are rebuilt when a particle has moved half the skin
 LAMMPS's Pair time excludes communication. With several processes it is the time of the slowest one. All times are wall-clock times per
-particle and step. Pair styles run on MPI processes; lj/cut/omp runs on threads of one process instead.
+particle and step. Pair styles run on MPI processes; lj/cut/omp runs on threads of one process instead. lj/cut/intel is in double.
 
 The table and the JSON list what is missing: LAMMPS, a pair style, mpirun or a benchmark.
 
@@ -30,13 +30,13 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from benchmark_results import ISAS, MODELS, Arguments, Unusable  # noqa: E402
-from lammps_runs import SKIN, STYLES, Lammps, Peer, measure, melt, potential_energy, write_data  # noqa: E402
-from ours import CASES, Bench, Failed, energy_and_virial  # noqa: E402
-from systems import CUTOFF, LIQUIDS, lattice, read_extended_xyz, write_extended_xyz  # noqa: E402
+from benchmark_results import ISAS, Arguments, Unusable  # noqa: E402
+from lammps_runs import SKIN, STYLES, Lammps, Peer, measure, melt, newest_on_path, potential_energy, write_data  # noqa: E402
+from ours import CASES, Bench, Failed, core_counts, energy_and_virial  # noqa: E402
+from peer_tables import print_rows  # noqa: E402
+from systems import CUTOFF, LIQUIDS, kept_configuration, lattice  # noqa: E402
 
 TOLERANCE = 1e-10  # relative, for energy and virial: rounding in sums over 256000 particles gives about 1e-13
-BUSY_BELOW = 95.0  # [%] CPU use: below it another program was running
 
 
 class Comparison:
@@ -71,17 +71,11 @@ class Comparison:
 
     def configuration(self, liquid, particles):
         """The file of a melted liquid and LAMMPS's copy of it. Later runs use the same files."""
-        file = self.options.folder / f"{liquid.model}-{particles}-seed{self.options.seed}.extxyz"
-        data = file.with_suffix(".data")
-        if file.exists():
-            try:
-                configuration = read_extended_xyz(file, liquid)
-            except (ValueError, IndexError) as error:
-                raise Failed(f"{file}: {error}; remove it to have it made again") from error
-        else:
+        def made():
             say(f"{liquid.model}, N = {particles}: melting")
-            configuration = melt(self.lammps, liquid, particles, self.options.seed, max(self.peers, key=lambda peer: peer.processes))
-            write_extended_xyz(file, configuration)
+            return melt(self.lammps, liquid, particles, self.options.seed, max(self.peers, key=lambda peer: peer.processes))
+        file, configuration = kept_configuration(self.options.folder, liquid, particles, self.options.seed, made)
+        data = file.with_suffix(".data")
         write_data(data, configuration)
         return file, data
 
@@ -168,37 +162,12 @@ def print_table(report):
     context = report["context"]
     print(f"LAMMPS {context['lammps'] or 'missing'}; nanoseconds of the clock per particle and step, medians of {context['repetitions']}; "
           "ratio: peer/lanescape")
-    group = None
-    for row in report["results"]:
-        if group != (row["model"], row["particles"]):
-            group = row["model"], row["particles"]
-            worst = max(e["relative_difference"] for e in report["energies"] if (e["model"], e["particles"]) == group)
-            print(f"\n{MODELS[row['model']]}, N = {row['particles']}; energies agree to {worst:.1g}")
-            print(f"  {'case':20} {'cores':>5}  {'code':22} {'ns':>9} {'spread':>7} {'ratio':>6}  remarks")
-        spread = (max(row["samples"]) - min(row["samples"])) / row["ns_per_particle"]
-        ratio = "" if row["ratio"] is None else f"{row['ratio']:.2f}"
-        print(f"  {row['case']:20} {row['threads']:5}  {row['code'] + ' ' + row['variant']:22} {row['ns_per_particle']:9.2f} "
-              f"{100 * spread:5.0f} % {ratio:>6}  {remarks(row)}".rstrip())
-    if report["missing"]:
-        print()
-    for entry in report["missing"]:
-        print(f"missing: {entry['what']}: {entry['why']}")
-
-
-def remarks(row):
-    said = []
-    if row["case"] == "step" and row.get("list_builds") is not None:
-        said.append(f"{row['list_builds']} lists in {row['steps']} steps")
-        if row["dangerous_builds"]:
-            said.append(f"{row['dangerous_builds']} of them late")
-    if row.get("cpu_percent", 100.0) < BUSY_BELOW:
-        said.append(f"had {row['cpu_percent']:.0f} % of the processor")
-    return ", ".join(said)
+    print_rows(report)
 
 
 def parse(arguments):
     parser = Arguments(prog="lammps.py", description="LAMMPS and bench_lists side by side; the head of this file describes the comparison.")
-    parser.add_argument("--lammps", metavar="PATH", help="the LAMMPS to use [lmp, lmp_mpi or lammps on PATH]")
+    parser.add_argument("--lammps", metavar="PATH", help="the LAMMPS to use [the newest of lmp, lmp_mpi and lammps on PATH]")
     parser.add_argument("--mpirun", metavar="PATH", help="the mpirun of LAMMPS's MPI [mpirun on PATH]")
     parser.add_argument("--bench", type=Path, default=ROOT / "build/release/bench/bench_lists", help="[build/release/bench/bench_lists]")
     parser.add_argument("--lanescape", type=Path, default=ROOT / "build/release/lanescape", help="[build/release/lanescape]")
@@ -207,7 +176,7 @@ def parse(arguments):
     parser.add_argument("--sizes", nargs="+", type=int, default=(256, 4000, 32000, 256000), metavar="N",
                         help="particles [256 4000 32000 256000]")
     parser.add_argument("--step-size", type=int, default=32000, metavar="N", help="the Kob-Andersen size that whole steps are timed for [32000]")
-    parser.add_argument("--threads", nargs="+", type=int, default=(1, 2), metavar="T", help="threads, or processes of LAMMPS [1 2]")
+    parser.add_argument("--threads", nargs="+", type=int, default=core_counts(), metavar="T", help="threads, or processes of LAMMPS [1, 2, 4, ...]")
     parser.add_argument("--repetitions", type=int, default=5, help="[5]")
     parser.add_argument("--work", type=float, default=2e7, help="particles times steps of one timing of forces [2e7]")
     parser.add_argument("--steps", type=int, default=300, help="of one timing of whole steps [300]")
@@ -238,10 +207,6 @@ def parse(arguments):
     return options
 
 
-def first_on_path(*names):
-    return next((found for found in map(shutil.which, names) if found), None)
-
-
 def main(arguments):
     options = parse(arguments)
     options.bench, options.lanescape = options.bench.absolute(), options.lanescape.absolute()
@@ -249,9 +214,12 @@ def main(arguments):
     try:
         options.folder.mkdir(parents=True, exist_ok=True)
         options.folder = options.folder.absolute()
-        program = options.lammps or first_on_path("lmp", "lmp_mpi", "lammps")
-        if program:
-            comparison.lammps = Lammps(program, options.mpirun or first_on_path("mpirun"), options.folder)
+        launcher = options.mpirun or shutil.which("mpirun")
+        if options.lammps:
+            comparison.lammps = Lammps(options.lammps, launcher, options.folder)
+        else:
+            comparison.lammps, comparison.missing = newest_on_path(launcher, options.folder)
+        if comparison.lammps:
             comparison.run()
         else:
             comparison.miss("LAMMPS", "none of lmp, lmp_mpi, lammps on PATH")
@@ -262,7 +230,7 @@ def main(arguments):
         print(f"lammps.py: {error}", file=sys.stderr)
         return 1
     print_table(report)
-    return 0 if program else 1
+    return 0 if comparison.lammps else 1
 
 
 if __name__ == "__main__":

@@ -28,9 +28,15 @@ def run(command, environment=None):
     return done.stdout
 
 
-def energy_and_virial(program, file, liquid, cutoff):
-    """Potential energy [epsilon] and virial [epsilon] of a configuration, cut and shifted at `cutoff` [sigma_ab]."""
-    result = json.loads(run([program, "energy", file, "--model", liquid.model, "--cutoff", cutoff, "--truncation", "shifted", "--quiet"]))
+def core_counts():
+    """1, 2, 4, ... up to the number of cores that this process may use, and that number."""
+    cores = len(os.sched_getaffinity(0))
+    return tuple(2**k for k in range(cores.bit_length()) if 2**k < cores) + (cores,)
+
+
+def energy_and_virial(program, file, liquid, cutoff, truncation="shifted"):
+    """Potential energy [epsilon] and virial [epsilon] of a configuration, truncated at `cutoff` [sigma_ab]."""
+    result = json.loads(run([program, "energy", file, "--model", liquid.model, "--cutoff", cutoff, "--truncation", truncation, "--quiet"]))
     return result["energy"], result["virial"]
 
 

@@ -6,7 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
+from ours import Failed
+
 CUTOFF = 2.5  # [sigma_ab]
+LATTICE_ORDER_LIMIT = 0.3  # a lattice at these temperatures has more than 0.7, a liquid of 256 particles about 0.1
 
 
 @dataclasses.dataclass(frozen=True)
@@ -85,3 +88,23 @@ def read_extended_xyz(file, liquid):
     fields = [row.split() for row in rows]
     return Configuration(liquid, float(comment.split('"')[1].split()[0]), np.array([liquid.species.index(f[0]) for f in fields]),
                          np.array([[float(x) for x in f[1:4]] for f in fields]))
+
+
+def check_melted(configuration, particles, source):
+    """Raises Failed if what a code has melted has other particles or is still a lattice."""
+    order = lattice_order(configuration)
+    if len(configuration) != particles or not order < LATTICE_ORDER_LIMIT:
+        raise Failed(f"{source}: not a liquid of {particles} particles: {len(configuration)} with lattice order {order:.2f}")
+
+
+def kept_configuration(folder, liquid, particles, seed, make):
+    """The file of a melted liquid and the liquid: what an earlier run or another driver has left, else what make() gives."""
+    file = folder / f"{liquid.model}-{particles}-seed{seed}.extxyz"
+    if not file.exists():
+        made = make()
+        write_extended_xyz(file, made)
+        return file, made
+    try:
+        return file, read_extended_xyz(file, liquid)
+    except (ValueError, IndexError) as error:
+        raise Failed(f"{file}: {error}; remove it to have it made again") from error

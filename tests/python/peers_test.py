@@ -16,15 +16,18 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "bench" / "peers" / "lammps.py"
 LANESCAPE = None
-sys.path[:0] = [str(ROOT / "bench" / "peers"), str(ROOT / "tools")]
+sys.path[:0] = [str(ROOT / "tests" / "python"), str(ROOT / "bench" / "peers"), str(ROOT / "tools")]
 
+from lammps_runs import release_of  # noqa: E402
+from peers_support import FAKE_BENCH, FAKE_LANESCAPE  # noqa: E402
 from systems import LIQUIDS, lattice, lattice_order, read_extended_xyz, wrapped, write_extended_xyz  # noqa: E402
 
 # Answers scripts like LAMMPS: 50 ns per particle and step in pairs, 80 ns in total; one process is twice as slow as two.
 FAKE_LAMMPS = """#!/usr/bin/python3
 import os, random, re, sys
 if sys.argv[1] == "-h":
-    print("Massively Parallel Simulator - 1 Jan 2000\\n\\nCompiler: none\\n\\n* Pair styles:\\n\\nlj/cut lj/cut/opt\\n\\n* Bond styles:\\n")
+    print(f"Massively Parallel Simulator - {os.environ.get('FAKE_RELEASE', '1 Jan 2000')}\\n\\nCompiler: none\\n")
+    print(f"* Pair styles:\\n\\nlj/cut lj/cut/opt {os.environ.get('FAKE_STYLES', '')}\\n\\n* Bond styles:\\n")
     sys.exit()
 script, log = sys.argv[2], open(sys.argv[4], "w")
 lines = open(script).read().splitlines()
@@ -61,29 +64,6 @@ while [ "$1" != -np ]; do shift; done
 export FAKE_PROCESSES="$2"
 shift 2
 exec "$@"
-"""
-
-FAKE_LANESCAPE = """#!/usr/bin/python3
-import os
-open(os.environ["FAKE_RECORD"], "a").write("lanescape energy\\n")
-print('{"energy": -1234.5, "virial": 600.0}')
-"""
-
-FAKE_BENCH = """#!/usr/bin/python3
-import json, os, re, sys
-option = dict(word.lstrip("-").split("=", 1) for word in sys.argv[1:] if "=" in word)
-n = int(open(option["configuration"]).readline())
-cases = ["force", "force+energy+virial"] + (["step"] if option["model"] == "kob-andersen" else [])
-names = [f"{c}/N:{n}/threads:{t}/{i}" for c in cases for t in (1, 2) for i in ("sse2", "avx2")]
-if os.environ.get("FAKE_LACKS"):
-    names = [name for name in names if not name.startswith(os.environ["FAKE_LACKS"])]
-names = [name for name in names if re.search(option.get("benchmark_filter", "."), name)]
-if "--benchmark_list_tests" in sys.argv:
-    print("\\n".join(names))
-else:
-    failed = {"error_occurred": True, "error_message": "wrong gradient"} if os.environ.get("FAKE_WRONG") else {}
-    print(json.dumps({"context": {}, "benchmarks": [{"name": name, "run_name": name, "run_type": "iteration", "ns_per_particle": 20.0,
-                                                     **failed} for name in names]}))
 """
 
 
@@ -133,7 +113,7 @@ class Comparison(unittest.TestCase):
     def compare(self, *arguments, lammps="lmp", environment=None):
         command = [sys.executable, SCRIPT, "--bench", self.folder / "bench_lists", "--lanescape", self.folder / "lanescape",
                    "--mpirun", self.folder / "mpirun", "--folder", self.folder / "files", "--json", self.json, "--sizes", 256,
-                   "--step-size", 256, "--repetitions", 2, "--work", 1e4, "--steps", 20]
+                   "--step-size", 256, "--threads", 1, 2, "--repetitions", 2, "--work", 1e4, "--steps", 20]
         command += ["--lammps", self.folder / lammps] if lammps else []
         return subprocess.run([str(word) for word in (*command, *arguments)], capture_output=True, text=True, check=False,
                               env={**os.environ, "FAKE_RECORD": str(self.record), **(environment or {})})
@@ -170,7 +150,7 @@ class Comparison(unittest.TestCase):
         done = self.compare(environment={"FAKE_LACKS": "step", "FAKE_BROKEN": "lj/cut/opt"})
         self.assertEqual(done.returncode, 0, done.stderr)
         missing = self.missing()
-        self.assertEqual(set(missing), {"LAMMPS lj/cut/omp", "LAMMPS lj/cut/opt, 1 process", "LAMMPS lj/cut/opt, 2 processes",
+        self.assertEqual(set(missing), {"LAMMPS lj/cut/omp", "LAMMPS lj/cut/intel", "LAMMPS lj/cut/opt, 1 process", "LAMMPS lj/cut/opt, 2 processes",
                                         "bench_lists step, 1 threads", "bench_lists step, 2 threads"})
         self.assertIn("out of luck", missing["LAMMPS lj/cut/opt, 1 process"])
         for what in missing:
@@ -181,6 +161,37 @@ class Comparison(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("missing: LAMMPS: none of", done.stdout)
         self.assertEqual(set(self.missing()), {"LAMMPS"})
+
+    def test_the_newest_lammps_on_the_path_is_used(self):
+        folders = []
+        for name, release in (("old", "29 Sep 2021"), ("new", "22 Jul 2025 - Update 4"), ("older", "22 Jul 2025 - Update 1")):
+            folders.append(self.folder / name)
+            folders[-1].mkdir()
+            (folders[-1] / "lmp").write_text(f"#!/bin/sh\nFAKE_RELEASE='{release}' exec {self.folder / 'lmp'} \"$@\"\n")
+            (folders[-1] / "lmp").chmod(0o755)
+        broken = self.folder / "broken"
+        broken.mkdir()
+        (broken / "lammps").write_text("#!/bin/sh\necho no library >&2\nexit 127\n")
+        (broken / "lammps").chmod(0o755)
+        path = os.pathsep.join(map(str, (broken, *folders, "/usr/bin", "/bin")))
+        done = self.compare("--models", "lennard-jones", "--threads", 1, "--lammps", folders[0] / "lmp")
+        self.assertIn("LAMMPS 29 Sep 2021;", done.stdout)
+        done = self.compare("--models", "lennard-jones", "--threads", 1, lammps=None, environment={"PATH": path})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("LAMMPS 22 Jul 2025 - Update 4;", done.stdout)
+        self.assertIn("no library", self.missing()[f"LAMMPS {broken / 'lammps'}"])
+
+    def test_releases_are_in_the_order_of_their_dates(self):
+        versions = ["a version", "29 Sep 2021", "2 Aug 2023", "22 Jul 2025", "22 Jul 2025 - Update 4"]
+        self.assertEqual(sorted(versions[::-1], key=release_of), versions)
+
+    def test_the_intel_style_runs_in_double_precision_on_processes(self):
+        done = self.compare("--models", "lennard-jones", environment={"FAKE_STYLES": "lj/cut/intel"})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = [row for row in self.report()["results"] if row["variant"] == "lj/cut/intel"]
+        self.assertEqual({row["threads"] for row in rows}, {1, 2})
+        script = (self.folder / "files" / "lennard-jones-256-seed1-energy.in").read_text()
+        self.assertTrue(script.startswith("package intel 0 omp 1 mode double\n"), script)
 
     def test_an_mpirun_of_another_mpi_is_noticed(self):
         done = self.compare(environment={"FAKE_RANKS": "1"})

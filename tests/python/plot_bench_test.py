@@ -15,6 +15,7 @@ SCRIPT = TOOLS / "plot_bench.py"
 sys.path.insert(0, str(TOOLS))
 
 import plot_bench  # noqa: E402
+import plot_threads  # noqa: E402
 
 
 def entries(name, nanoseconds, **counters):
@@ -73,7 +74,7 @@ class PlotBench(unittest.TestCase):
         self.assertEqual(self.figures(), [])
 
     def test_times_alone_give_the_scaling(self):
-        self.assert_draws("scaling.png")
+        self.assert_draws("scaling.png", "threads.png")
 
     def test_one_size_and_one_thread_can_be_drawn(self):
         self.write_bench(entries("force/N:256/threads:1/avx2", [30.0]))
@@ -81,23 +82,42 @@ class PlotBench(unittest.TestCase):
 
     def test_several_liquids_get_a_panel_each(self):
         self.write_bench(bench("kob-andersen/") + bench("lennard-jones/"))
-        self.assert_draws("scaling.png")
+        self.assert_draws("scaling.png", "threads.png")
         _, points, _ = plot_bench.read_bench(self.bench)
         self.assertEqual(len(plot_bench.panels_of(points)), 6)
 
     def test_the_share_of_the_peak_gives_the_roofline(self):
         self.write_bench(bench(fraction_of_peak=0.2))
-        self.assert_draws("scaling.png", "roofline.png")
+        self.assert_draws("scaling.png", "threads.png", "roofline.png")
 
-    def test_the_roofline_can_be_drawn_with_and_without_a_peak(self):
-        for context in ({}, {"peak_gflops": "45.2"}, {"peak_gflops": 45.2}, {"peak avx2": "45.2 GFLOP/s"}, {"peak_gflops": "fast"}):
+    def test_the_roofline_can_be_drawn_with_and_without_a_peak_and_a_slope(self):
+        for context in ({}, {"memory_gb_per_second": "18.2"}, {"peak_gflops": "45.2", "memory_gb_per_second": "18.2"}, {"peak_gflops": "45.2"}, {"peak_gflops": 45.2}, {"peak avx2": "45.2 GFLOP/s"}, {"peak_gflops": "fast"}):
             self.write_bench(bench(flops_per_byte=2.0, gflops=10.0), **context)
-            self.assert_draws("scaling.png", "roofline.png")
+            self.assert_draws("scaling.png", "threads.png", "roofline.png")
 
     def test_the_peak_is_found_in_either_form(self):
         self.assertEqual(plot_bench.peak_of({"peak_gflops": "45.2"}, "avx2"), 45.2)
         self.assertEqual(plot_bench.peak_of({"peak sse2": "10 GFLOP/s", "peak avx2": "45.2 GFLOP/s"}, "avx2"), 45.2)
         self.assertIsNone(plot_bench.peak_of({"peak sse2": "10 GFLOP/s"}, "avx2"))
+
+    def test_a_bandwidth_is_a_positive_number(self):
+        self.assertEqual(plot_bench.bandwidth_of({"memory_gb_per_second": "18.2"}), 18.2)
+        for context in ({}, {"memory_gb_per_second": "fast"}, {"memory_gb_per_second": None}, {"memory_gb_per_second": "0"}):
+            self.assertIsNone(plot_bench.bandwidth_of(context))
+
+    def test_speed_ups_are_relative_to_one_thread(self):
+        self.write_bench([entry for n, times in ((256, (30.0, 40.0)), (4000, (40.0, 20.0, 11.0))) for k, t in enumerate(times)
+                          for entry in entries(f"force/N:{n}/threads:{2**k}/avx2", [t])] + entries("force/N:500/threads:2/avx2", [9.0]))
+        _, points, isa = plot_bench.read_bench(self.bench)
+        self.assertEqual(plot_threads.thread_series(points, [], isa), [("Lanescape avx2, N = 256", [1, 2], [30.0, 40.0]),
+                                                                       ("Lanescape avx2, N = 4000", [1, 2, 4], [40.0, 20.0, 11.0])])
+
+    def test_the_fastest_variant_of_a_peer_near_32000_particles_stands_for_it(self):
+        rows = [peer(particles=n, threads=t, variant=v, samples=[time / t]) for n in (256, 32000) for t in (1, 2)
+                for v, time in (("lj/cut", 300.0), ("lj/cut/opt", 200.0))] + [peer(code="Other", threads=2)]
+        chosen = plot_threads.fastest_peers(rows)
+        self.assertEqual(list(chosen), ["LAMMPS lj/cut/opt, N = 32k"])
+        self.assertEqual([row["samples"] for row in chosen["LAMMPS lj/cut/opt, N = 32k"]], [[200.0], [100.0]])
 
     def test_the_widest_instruction_set_is_drawn(self):
         self.write_bench(entries("force/N:256/threads:1/sse2", [90.0]) + entries("force/N:256/threads:1/avx2", [30.0, 31.0]))
@@ -112,15 +132,15 @@ class PlotBench(unittest.TestCase):
     def test_peers_are_drawn_beside(self):
         self.write_peers([peer(particles=n, threads=t, case=c, variant=v) for n in (4000, 32000) for t in (1, 2)
                           for c in ("force", "step") for v in ("lj/cut", "lj/cut/opt")] + [peer(code="lanescape", variant="avx2")])
-        self.assert_draws("scaling.png", "peers.png")
+        self.assert_draws("scaling.png", "threads.png", "peers.png")
 
     def test_peers_without_ratios_are_no_bars(self):
         self.write_peers([peer(ratio=None)])
-        self.assert_draws("scaling.png")
+        self.assert_draws("scaling.png", "threads.png")
 
     def test_peers_of_whom_none_could_be_run_are_no_points(self):
         self.write_peers([peer(code="lanescape")])
-        self.assert_draws("scaling.png")
+        self.assert_draws("scaling.png", "threads.png")
 
     def test_bad_results_are_refused(self):
         for text, named in (("", "not JSON"), ("[]", "not Google Benchmark's"), ('{"benchmarks": []}', "no benchmark")):
