@@ -36,7 +36,7 @@ lanescape_install_config(Verification)
 # these without --static.
 if(NOT BUILD_SHARED_LIBS)
   set(LANESCAPE_PC_REQUIRES "fmt")
-  set(LANESCAPE_PC_LIBS "${OpenMP_CXX_FLAGS} -lpthread")
+  set(LANESCAPE_PC_LIBS "-lpthread")
 endif()
 # For C, and for Fortran with the module of bindings/fortran.
 lanescape_install_component(C lanescape_c)

@@ -150,10 +150,7 @@ std::vector<InsertionSearch> search_batch(const ProbeField& fluid, const Inserti
   for (std::size_t k = 0; k < count; ++k)
     searches.emplace_back(fluid, options, history.next_search(), allowed_difference(options, history),
                           iteration_limit(options, history));
-  const int parts = std::min(threads, static_cast<int>(count));
-  for_each_part(parts, [&](int part) {
-    for (std::size_t k = static_cast<std::size_t>(part); k < count; k += static_cast<std::size_t>(parts)) searches[k].run();
-  });
+  for_each_block(threads, count, [&](std::size_t k) { searches[k].run(); });
   return searches;
 }
 

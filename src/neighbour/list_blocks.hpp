@@ -7,11 +7,11 @@
 
 namespace lanescape {
 
-// Calls body(block, scratch) for each block of a list, shared by the list's threads; each thread makes one scratch. Which thread
-// takes a block must not matter: keep one sum per block and add them in the order of blocks.
+// Calls body(block, scratch) for each block of a list, shared by the list's threads; each of its parts makes one scratch. Which
+// thread takes a block must not matter: keep one sum per block and add them in the order of blocks.
 template <class MakeScratch, class Body>
 void for_each_block(const NeighbourList& list, MakeScratch make_scratch, Body body) {
-  for_each_part(list.parts(), [&](int part) {
+  for_each_block(list.threads(), list.parts(), [&](std::size_t part) {
     auto scratch = make_scratch();
     for (std::size_t b = list.first_block(part); b < list.first_block(part + 1); ++b) body(b, scratch);
   });

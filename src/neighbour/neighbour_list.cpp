@@ -81,7 +81,7 @@ kernels::NeighbourRows NeighbourList::rows_of(std::size_t block) const {
   return {.points = points_.points(),
           .rows = points_.rows(b.species).data() + b.first_row,
           .row_count = b.row_count,
-          .neighbours = neighbours_[b.part].data() + b.first_neighbour,
+          .neighbours = neighbours_[b.array].data() + b.first_neighbour,
           .lengths = lengths_.data() + b.first_segment,
           .species_count = points_.species(),
           .fixed_points = points_.fixed_points(),
@@ -227,20 +227,20 @@ void NeighbourList::fill(Block& block, std::size_t part, std::size_t begin) {
       end += padded(count);
     }
   }
-  block.part = part;
+  block.array = part;
   block.first_neighbour = begin;
   block.padded_neighbours = end - begin;
 }
 
 void NeighbourList::share_out() {
+  const std::size_t parts =
+      threads_ == 1 ? 1 : std::clamp<std::size_t>(blocks_.size(), 1, parts_of_thread * static_cast<std::size_t>(threads_));
   std::size_t total = 0, part = 0, so_far = 0;
   for (const Block& block : blocks_) total += block.padded_neighbours;
-  first_blocks_.assign(static_cast<std::size_t>(threads_) + 1, blocks_.size());
+  first_blocks_.assign(parts + 1, blocks_.size());
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     // A part begins with the block in whose first half its share begins.
-    while (part < static_cast<std::size_t>(threads_) &&
-           so_far + blocks_[b].padded_neighbours / 2 >= part_begin(total, static_cast<int>(part), threads_))
-      first_blocks_[part++] = b;
+    while (part < parts && so_far + blocks_[b].padded_neighbours / 2 >= total * part / parts) first_blocks_[part++] = b;
     so_far += blocks_[b].padded_neighbours;
   }
 }

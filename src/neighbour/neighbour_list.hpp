@@ -53,19 +53,24 @@ class NeighbourList {
   std::size_t block_count() const { return blocks_.size(); }
   std::size_t species_of(std::size_t block) const { return blocks_[block].species; }
   kernels::NeighbourRows rows_of(std::size_t block) const;
-  // The array that holds a block's neighbours, one array for each part, and the offset of the first. For arrays of the same shape.
-  std::size_t array_of(std::size_t block) const { return blocks_[block].part; }
+  // The array that holds a block's neighbours, and the offset of the first. For arrays of the same shape.
+  std::size_t arrays() const { return neighbours_.size(); }
+  std::size_t array_of(std::size_t block) const { return blocks_[block].array; }
   std::size_t first_neighbour(std::size_t block) const { return blocks_[block].first_neighbour; }
   std::size_t array_size(std::size_t array) const { return neighbours_[array].size(); }
   // The unit of the points as integers; 0 without them [sigma].
   double fixed_unit() const { return points_.fixed_unit(); }
+  // Parts for each thread: what is left over when a thread has ended is small.
+  static constexpr std::size_t parts_of_thread = 8;
   // The largest number of rows in a block.
   static constexpr std::size_t block_rows = 32;
   // The slot of the particle that the point at this offset is, or is an image of.
   std::uint32_t slot_at(std::uint32_t place) const { return points_.slot(place / kernels::point_width); }
-  // Blocks [first_block(part), first_block(part + 1)) are about the same work for each part, one per thread.
-  std::size_t first_block(int part) const { return first_blocks_[static_cast<std::size_t>(part)]; }
-  int parts() const { return threads_; }
+  // Blocks [first_block(part), first_block(part + 1)) are about the same work for each part. There are several parts for each
+  // thread.
+  std::size_t first_block(std::size_t part) const { return first_blocks_[part]; }
+  std::size_t parts() const { return first_blocks_.size() - 1; }
+  int threads() const { return threads_; }
 
   std::uint64_t rebuilds() const { return rebuilds_; }
   // Neighbours over all rows, each pair from both ends, skin included.
@@ -80,7 +85,7 @@ class NeighbourList {
   struct Block {
     std::size_t species, first_row, row_count;  // rows of that species
     std::size_t first_segment;                  // in lengths_
-    std::size_t part, first_neighbour;          // in neighbours_[part]
+    std::size_t array, first_neighbour;         // in neighbours_[array]
     std::size_t padded_neighbours;
   };
   void rebuild(const AlignedArray& positions);

@@ -113,11 +113,9 @@ PathCheck check_path(const SoftLandscapeMaker& make_landscape, double landscape_
   check_polyline(first->algebra(), nodes, 3);
   SoftCheck check(landscape_energy, nodes, options);
   const std::size_t segments = nodes.size() - 1, blocks = (segments + block_segments - 1) / block_segments;
-  const int parts = static_cast<int>(std::min(static_cast<std::size_t>(options.threads), blocks));
   const auto in_blocks = [&](auto&& work) {
-    for_each_part(parts, [&](int part) {
-      for (std::size_t b = part_begin(blocks, part, parts); b < part_begin(blocks, part + 1, parts); ++b)
-        work(*make_landscape(), b * block_segments, std::min(segments, (b + 1) * block_segments));
+    for_each_block(options.threads, blocks, [&](std::size_t b) {
+      work(*make_landscape(), b * block_segments, std::min(segments, (b + 1) * block_segments));
     });
   };
   in_blocks([&](SoftLandscape& landscape, std::size_t begin, std::size_t end) { check.add_energies(landscape, begin, end); });

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/option_checks.hpp"
+#include "core/parallel.hpp"
 #include "run/path_search.hpp"
 #include "run/shared_progress.hpp"
 
@@ -55,15 +56,13 @@ std::vector<PathResult> run_paths(const AnyModel& model, const std::vector<Confi
   const Searches searches{model, pairs, prepared, options, isa, checkpoint, progress};
   std::vector<PathResult> results(pairs.size());
   std::vector<std::exception_ptr> failures(pairs.size());
-  const int threads = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(std::max(1, options.threads)), pairs.size()));
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads) if (threads > 1)
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
+  for_each_block(options.threads, pairs.size(), [&](std::size_t k) {
     try {
       results[k] = searches.pair(k);
     } catch (...) {
       failures[k] = std::current_exception();
     }
-  }
+  });
   for (const auto& failure : failures)
     if (failure) std::rethrow_exception(failure);
   return results;

@@ -53,13 +53,10 @@ void keep_shortest(ShortenResult& result, const std::vector<std::unique_ptr<Shor
 void shorten(ShortenResult& result, const Starts& starts, std::size_t count, int threads) {
   std::vector<std::unique_ptr<ShortenWork>> works(count);
   std::vector<char> interrupted(count, 0);
-  const int parts = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(std::max(1, threads)), count));
-  for_each_part(parts, [&](int part) {
-    for (auto k = static_cast<std::size_t>(part); k < count; k += static_cast<std::size_t>(parts)) {
-      bool stopped = false;
-      works[k] = starts.run(k, stopped);
-      interrupted[k] = stopped ? 1 : 0;
-    }
+  for_each_block(threads, count, [&](std::size_t k) {
+    bool stopped = false;
+    works[k] = starts.run(k, stopped);
+    interrupted[k] = stopped ? 1 : 0;
   });
   const bool all = std::find(interrupted.begin(), interrupted.end(), 1) == interrupted.end();
   keep_shortest(result, works);

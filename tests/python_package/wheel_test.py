@@ -17,7 +17,7 @@ import tempfile
 import zipfile
 from pathlib import Path
 
-LIBRARIES = ("ld-linux", "libc.", "libm.", "libgcc_s.", "libstdc++.", "libgomp.", "linux-vdso")
+LIBRARIES = ("ld-linux", "libc.", "libm.", "libgcc_s.", "libstdc++.", "linux-vdso")
 LARGEST = 2e6  # bytes
 
 

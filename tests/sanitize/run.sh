@@ -2,8 +2,8 @@
 # run.sh PRESET: builds the preset and runs its fast tests; exit status 77 if its compiler is not installed.
 set -eu
 preset="$1"
-if [ "$preset" = tsan ] && ! { command -v clang++-19 && [ -e /usr/lib/llvm-19/lib/libomp.so ]; } >/dev/null; then
-  echo "skipped: clang 19 with its OpenMP is not installed (Debian: clang-19 libomp-19-dev libclang-rt-19-dev)"
+if [ "$preset" = tsan ] && ! command -v clang++-19 >/dev/null; then
+  echo "skipped: clang 19 is not installed (Debian: clang-19 libclang-rt-19-dev)"
   exit 77
 fi
 cmake --preset "$preset" -DLANESCAPE_BUILD_BENCHMARKS=OFF

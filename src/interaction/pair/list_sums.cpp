@@ -41,7 +41,7 @@ void ListSums::for_each_block(const AlignedArray& positions, Evaluate evaluate) 
   }
   sums_.assign(list_.block_count(), {});
   const std::size_t species = list_.species();
-  for_each_part(list_.parts(), [&](int part) {
+  lanescape::for_each_block(list_.threads(), list_.parts(), [&](std::size_t part) {
     alignas(kernels::array_alignment) std::array<double, kernels::point_width * NeighbourList::block_rows> records;
     for (std::size_t b = list_.first_block(part); b < list_.first_block(part + 1); ++b)
       evaluate(b,

@@ -35,7 +35,7 @@ void Sites::move_to(const AlignedArray& positions) {
   positions_ = positions;
   list_.update(positions);
   near_known_ = false;
-  near_.resize(static_cast<std::size_t>(list_.parts()));
+  near_.resize(list_.arrays());
   near_slopes_.resize(near_.size());
   for (std::size_t k = 0; k < near_.size(); ++k) {
     near_[k].resize(list_.array_size(k));
@@ -58,8 +58,8 @@ void Sites::put_states() {
   if (states < 3) return;
   const std::size_t points = list_.points(), groups = padded(states, width) / width;
   groups_.resize(groups * width * points);
-  for_each_part(list_.parts(), [&](int part) {
-    for (std::size_t k = part_begin(points, part, list_.parts()); k < part_begin(points, part + 1, list_.parts()); ++k) {
+  for_each_part(list_.threads(), [&](int part) {
+    for (std::size_t k = part_begin(points, part, list_.threads()); k < part_begin(points, part + 1, list_.threads()); ++k) {
       const std::span<const double> p = states_.of(list_.slot_at(static_cast<std::uint32_t>(width * k)));
       for (std::size_t a = 0; a < groups * width; ++a)
         groups_[a / width * width * points + width * k + a % width] = a < states ? p[a] : 0.0;

@@ -22,12 +22,10 @@ BlockTridiagonal::BlockTridiagonal(const kernels::KernelTable& kernels, std::siz
 
 void BlockTridiagonal::set_zero() {
   const std::size_t size = panels_ * kernels::panel_width * rows_;
-  for_each_part(threads_, [&](int part) {
-    for (std::size_t k = part_begin(blocks(), part, threads_); k < part_begin(blocks(), part + 1, threads_); ++k) {
-      diagonal_[k].assign(size, 0.0);
-      for (std::size_t i = dimension_; i < rows_; ++i) add(k, i, i, 1.0);
-      if (k < coupling_.size()) coupling_[k].assign(size, 0.0);
-    }
+  for_each_block(threads_, blocks(), [&](std::size_t k) {
+    diagonal_[k].assign(size, 0.0);
+    for (std::size_t i = dimension_; i < rows_; ++i) add(k, i, i, 1.0);
+    if (k < coupling_.size()) coupling_[k].assign(size, 0.0);
   });
 }
 
@@ -39,19 +37,13 @@ BlockTridiagonal::Side BlockTridiagonal::side(std::size_t which) const {
 // body(which), on a thread each if there are two.
 template <class Body>
 void BlockTridiagonal::for_each_side(const Body& body) const {
-  const int parts = std::min(threads_, 2);
-  for_each_part(parts, [&](int part) {
-    for (int which = part; which < 2; which += parts) body(static_cast<std::size_t>(which));
-  });
+  for_each_block(threads_, 2, body);
 }
 
 // body(panel), on all threads.
 template <class Body>
 void BlockTridiagonal::for_each_panel(const Body& body) const {
-  const std::size_t parts = std::min(static_cast<std::size_t>(threads_), panels_);
-  for_each_part(static_cast<int>(parts), [&](int part) {
-    for (auto panel = static_cast<std::size_t>(part); panel < panels_; panel += parts) body(panel);
-  });
+  for_each_block(threads_, panels_, body);
 }
 
 // D = U^T U, W = U^-T E, and the next D loses W^T W.

@@ -29,19 +29,14 @@ const double* InteriorPoint::node(const std::vector<AlignedArray>& field, std::s
 
 template <class Body>
 void InteriorPoint::for_each_inner(const Body& body) const {
-  for_each_part(threads_, [&](int part) {
-    const FloatEnvironment environment;
-    for (std::size_t k = part_begin(inner_, part, threads_); k < part_begin(inner_, part + 1, threads_); ++k) body(k + 1);
-  });
+  const FloatEnvironment environment;
+  for_each_block(threads_, inner_, [&](std::size_t k) { body(k + 1); });
 }
 
 template <class Body>
 void InteriorPoint::for_each_segment(Segments& segments, const Body& body) const {
-  for_each_part(threads_, [&](int part) {
-    const FloatEnvironment environment;
-    const std::size_t n = segments.size();
-    for (std::size_t k = part_begin(n, part, threads_); k < part_begin(n, part + 1, threads_); ++k) body(k, segments[k]);
-  });
+  const FloatEnvironment environment;
+  for_each_block(threads_, segments.size(), [&](std::size_t k) { body(k, segments[k]); });
 }
 
 // The mean product of slacks and multipliers after a step of these lengths.

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
-#include <memory>
 
-#include "core/thread_team.hpp"
+#include "core/parallel.hpp"
 
 namespace lanescape {
 
@@ -13,25 +11,20 @@ namespace lanescape {
 // lists, does the same work in the same order on any number of threads.
 class NodeBlocks {
  public:
-  static constexpr std::size_t count = ThreadTeam::blocks;
+  static constexpr std::size_t count = 16;
 
   // Of a path of `nodes` nodes, both ends among them.
-  NodeBlocks(std::size_t nodes, int threads) : inner_(nodes < 2 ? 0 : nodes - 2), team_(std::make_unique<ThreadTeam>(threads)) {}
+  NodeBlocks(std::size_t nodes, int threads) : inner_(nodes < 2 ? 0 : nodes - 2), threads_(threads) {}
 
   // The first node of a block; of the block after the last, the node after the last.
   std::size_t begin(std::size_t block) const { return 1 + inner_ * block / count; }
-  // Calls program(), whose loops over these blocks share one start of the threads.
-  template <class Program>
-  void run(const Program& program) const {
-    team_->run(std::cref(program));
-  }
   // body(block, first node, node after the last) of each block that is not empty.
   template <class Body>
   void for_each_block(const Body& body, Taking taking = Taking::one_block) const {
     const auto run_block = [&](std::size_t block) {
       if (begin(block) < begin(block + 1)) body(block, begin(block), begin(block + 1));
     };
-    team_->for_each(std::cref(run_block), taking);
+    lanescape::for_each_block(threads_, count, run_block, taking);
   }
   // The same for the algebra of a few vectors per node.
   template <class Body>
@@ -68,11 +61,11 @@ class NodeBlocks {
     });
     return *std::max_element(found, found + count);
   }
-  int threads() const { return team_->threads(); }
+  int threads() const { return threads_; }
 
  private:
   std::size_t inner_;
-  std::unique_ptr<ThreadTeam> team_;
+  int threads_;
 };
 
 }  // namespace lanescape

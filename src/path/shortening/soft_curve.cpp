@@ -171,12 +171,6 @@ double SoftCurve::measured_residual() const {
 }
 
 Relaxation SoftCurve::iterate() {
-  Relaxation state = Relaxation::continues;
-  nodes_->blocks().run([&] { state = iterate_on_threads(); });
-  return state;
-}
-
-Relaxation SoftCurve::iterate_on_threads() {
   find_boundary_step();
   improve_step();
   const double reach = longest(step_), before = string_energy(now_->nodes);

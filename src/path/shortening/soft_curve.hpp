@@ -34,7 +34,6 @@ class SoftCurve final : public CurveRelaxation {
 
  private:
   void allocate(Polyline nodes);
-  Relaxation iterate_on_threads();
   void find_boundary_step();
   void improve_step();
   double apply_curved(const Polyline& direction, Polyline& out);

@@ -262,27 +262,28 @@ TEST(NeighbourList, IsTheSameWhateverTheNumberOfThreads) {
       }
       // Exactly one part handles each block.
       EXPECT_EQ(many.first_block(0), 0U);
-      EXPECT_EQ(many.first_block(threads), many.block_count());
-      for (int part = 0; part < threads; ++part) EXPECT_LE(many.first_block(part), many.first_block(part + 1));
+      EXPECT_EQ(many.first_block(many.parts()), many.block_count());
+      for (std::size_t part = 0; part < many.parts(); ++part) EXPECT_LE(many.first_block(part), many.first_block(part + 1));
     }
   }
 }
 
-TEST(NeighbourList, HasAnEvenShareForEveryPart) {
+TEST(NeighbourList, HasAnEvenShareForEveryThread) {
   const Fluid fluid = random_fluid({14.0, 14.0, 14.0}, 4000, 2, 13);
   const ParticleLayout layout(fluid.species, 2);
   NeighbourList list = make_list(fluid, layout, 0.3, available_isas().back(), 4);
   list.update(layout.to_slots(fluid.positions));
-  const auto work = [&](int part) {
+  const std::size_t parts = list.parts();
+  const auto work = [&](std::size_t thread) {
     std::size_t vectors = 0;  // counted in lanes
-    for (std::size_t b = list.first_block(part); b < list.first_block(part + 1); ++b) {
+    for (std::size_t b = list.first_block(parts * thread / 4); b < list.first_block(parts * (thread + 1) / 4); ++b) {
       const kernels::NeighbourRows rows = list.rows_of(b);
       for_each_segment(rows, [&](std::size_t, std::size_t, auto offsets) { vectors += padded(offsets.size()); });
     }
     return static_cast<double>(vectors);
   };
   const double share = (work(0) + work(1) + work(2) + work(3)) / 4.0;
-  for (int part = 0; part < 4; ++part) EXPECT_NEAR(work(part), share, 0.05 * share) << part;
+  for (std::size_t thread = 0; thread < 4; ++thread) EXPECT_NEAR(work(thread), share, 0.05 * share) << thread;
 }
 
 TEST(NeighbourList, RefusesCoordinatesThatAreNotFiniteOrTooFarAway) {
