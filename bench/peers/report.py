@@ -7,7 +7,8 @@ Runs the drivers beside this file one after another, lammps.py, gromacs.py, open
   energies, results    of all drivers that time forces and steps, with the name of the driver; tools/plot_bench.py draws them
   pairs     of neighbours.py
 The table gives for each liquid, size and case the fastest variant of each code, in nanoseconds of the clock per particle and as a multiple
-of ours in the same driver's run. Each driver compares energies or pairs before it times anything; one that fails is named as missing.
+of ours in the same driver's run: in mixed precision for GROMACS, else in double. Each driver compares energies or pairs before it times
+anything; one that fails is named as missing.
 
 --python is the interpreter of the drivers, for example of a virtual environment with openmm, vesin, matscipy and freud-analysis. --for gives
 a driver arguments of its own, as in --for "lammps --lammps /opt/lmp --sizes 32000".
