@@ -97,7 +97,7 @@ class Comparison:
 
     def time(self, liquid, particles, file, data):
         """All codes in turn, as many times as there are repetitions."""
-        cases = [case for case in CASES if case != "step" or (liquid.model, particles) == ("kob-andersen", self.options.step_size)]
+        cases = [case for case in CASES if case != "step" or particles == self.options.step_size]
         bench = Bench(self.options.bench, file, liquid, particles, cases, self.options.threads, self.options.isa)
         for case, count in bench.missing:
             self.miss(f"bench_lists {case}, {count} threads", f"no such benchmark for N = {particles}, {bench.isa}")
@@ -175,7 +175,7 @@ def parse(arguments):
     parser.add_argument("--models", nargs="+", choices=tuple(LIQUIDS), default=tuple(LIQUIDS), help="[both]")
     parser.add_argument("--sizes", nargs="+", type=int, default=(256, 4000, 32000, 256000), metavar="N",
                         help="particles [256 4000 32000 256000]")
-    parser.add_argument("--step-size", type=int, default=32000, metavar="N", help="the Kob-Andersen size that whole steps are timed for [32000]")
+    parser.add_argument("--step-size", type=int, default=32000, metavar="N", help="the size that whole steps are timed for [32000]")
     parser.add_argument("--threads", nargs="+", type=int, default=core_counts(), metavar="T", help="threads, or processes of LAMMPS [1, 2, 4, ...]")
     parser.add_argument("--repetitions", type=int, default=5, help="[5]")
     parser.add_argument("--work", type=float, default=2e7, help="particles times steps of one timing of forces [2e7]")

@@ -10,7 +10,8 @@ FAKE_BENCH = """#!/usr/bin/python3
 import json, os, re, sys
 option = dict(word.lstrip("-").split("=", 1) for word in sys.argv[1:] if "=" in word)
 n = int(open(option["configuration"]).readline())
-cases = ["force", "force+energy+virial", "step-mixed"] + ["step"] * (option["model"] in os.environ.get("FAKE_STEPS", "kob-andersen"))
+steps = option["model"] in os.environ.get("FAKE_STEPS", "kob-andersen lennard-jones")
+cases = ["force", "force+energy+virial", "step-mixed"] + ["step"] * steps
 names = [f"{c}/N:{n}/threads:{t}/{i}" for c in cases for t in (1, 2) for i in ("sse2", "avx2")]
 if os.environ.get("FAKE_LACKS"):
     names = [name for name in names if not name.startswith(os.environ["FAKE_LACKS"])]
