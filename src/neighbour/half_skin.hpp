@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 #include "core/aligned_array.hpp"
+#include "core/parallel.hpp"
 #include "kernel_table.hpp"
 
 namespace lanescape {
@@ -16,18 +18,26 @@ class HalfSkin {
   double skin() const { return skin_; }
   // Two particles may approach each other by this from now on, where a box that changed uses up some of the skin.
   void allow(double approach) { allowed_ = 0.499 * approach; }  // a little less than half: displacements are rounded too
-  // The positions of the last rebuild; empty before the first.
-  const AlignedArray& reference() const { return reference_; }
-  AlignedArray& reference() { return reference_; }
-  void rebuilt_at(const AlignedArray& positions) {
-    reference_ = positions;
+  // Before rebuilt_at() and after forget() the next rebuild is due.
+  bool is_known() const { return known_; }
+  void forget() { known_ = false; }
+  // The positions of the last rebuild; nothing before the first.
+  const AlignedArray& reference() const { return known_ ? reference_ : nowhere_; }
+  AlignedArray& reference() { return known_ ? reference_ : nowhere_; }
+  void rebuilt_at(const AlignedArray& positions, int threads = 1) {
+    reference_.resize(positions.size());
+    for_each_part(threads, [&](int part) {
+      const std::size_t begin = part_begin(positions.size(), part, threads), end = part_begin(positions.size(), part + 1, threads);
+      std::copy(positions.data() + begin, positions.data() + end, reference_.data() + begin);
+    });
+    known_ = true;
     allow(skin_);
   }
 
   // Whether a particle in slots [begin, end), multiples of slot_padding, has moved too far; also true for positions that are not
   // numbers, and before the first rebuild.
   bool is_due(const AlignedArray& positions, std::size_t begin, std::size_t end) const {
-    if (reference_.empty()) return true;
+    if (!known_) return true;
     return !(table_->largest_displacement_squared(reference_.data(), positions.data(), positions.size() / 3, begin, end) <=
              allowed_ * allowed_);
   }
@@ -36,7 +46,8 @@ class HalfSkin {
  private:
   double skin_, allowed_ = 0.0;  // allowed_: displacement of one particle
   const kernels::KernelTable* table_;
-  AlignedArray reference_;
+  bool known_ = false;
+  AlignedArray reference_, nowhere_;  // memory of the first is kept
 };
 
 }  // namespace lanescape

@@ -29,6 +29,7 @@ class KeptArray {
     return data();
   }
 
+  std::size_t capacity() const { return memory_.get_deleter().capacity; }
   T* data() { return memory_.get(); }
   const T* data() const { return memory_.get(); }
   T& operator[](std::size_t k) { return data()[k]; }

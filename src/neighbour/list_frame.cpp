@@ -12,15 +12,15 @@ constexpr double most_boxes = 1e6;
 }  // namespace
 
 void ListFrame::forget() {
-  half_skin_.reference().clear();
+  half_skin_.forget();
   made_at_.clear();
   boxes_.clear();
   box_then_ = box_;
 }
 
-void ListFrame::made_at(const AlignedArray& positions) {
+void ListFrame::made_at(const AlignedArray& positions, int threads) {
   forget();
-  half_skin_.rebuilt_at(positions);
+  half_skin_.rebuilt_at(positions, threads);
 }
 
 double ListFrame::carried(std::size_t k) const {

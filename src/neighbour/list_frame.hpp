@@ -22,9 +22,9 @@ class ListFrame {
       : box_(box), longest_cutoff_(longest_cutoff), half_skin_(skin, table) {}
 
   // Before made_at() and after forget() there is no list.
-  bool is_empty() const { return half_skin_.reference().empty(); }
+  bool is_empty() const { return !half_skin_.is_known(); }
   void forget();
-  void made_at(const AlignedArray& positions);
+  void made_at(const AlignedArray& positions, int threads);
   const Box& box() const { return box_; }
   // Whether particles in slots [begin, end), multiples of slot_padding, have moved too far.
   bool is_due(const AlignedArray& positions, std::size_t begin, std::size_t end) const {

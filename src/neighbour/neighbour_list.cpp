@@ -9,9 +9,13 @@
 
 #include "core/padded.hpp"
 #include "core/parallel.hpp"
+#include "neighbour/point_cells.hpp"
 
 namespace lanescape {
 namespace {
+
+// How far rows that search together may lie apart along z, in reaches.
+constexpr double group_depth = 0.6;
 
 std::vector<double> with_skin(std::vector<double> cutoffs, double skin) {
   for (double& cutoff : cutoffs) cutoff += skin;
@@ -49,9 +53,12 @@ NeighbourList::NeighbourList(const Box& box, const ParticleLayout& layout, const
       frame_(box, skin, longest(cutoffs), table),
       threads_(threads),
       points_(box, layout, margins(reaches_, layout.blocks().size()), threads,
-              coordinates == Coordinates::floating ? 0.0 : unit_for(reaches_, skin)),
-      neighbours_(static_cast<std::size_t>(threads)) {
+              coordinates == Coordinates::floating ? 0.0 : unit_for(reaches_, skin)) {
   for (const auto& block : layout.blocks()) counts_.push_back(static_cast<double>(block.count));
+  cut_into_blocks(layout);
+  share_out([](const Block& block) { return block.row_count; });
+  writers_ = std::vector<Writer>(parts());
+  for (Writer& writer : writers_) writer.found.resize(counts_.size());
   prepare(box);
 }
 
@@ -63,16 +70,14 @@ void NeighbourList::prepare(const Box& box) {
   points_.set_box(box);
 }
 
-// Estimated for a fluid that fills the box evenly; otherwise the list grows.
-double NeighbourList::expected_per_row() const {
+// Estimated for a fluid that fills the box evenly; otherwise the list grows, and threads take work from each other.
+double NeighbourList::expected_per_row(std::size_t species) const {
   constexpr double half_a_vector_of_padding = 0.5 * kernels::slot_padding, margin = 1.02;
-  const double particles = std::accumulate(counts_.begin(), counts_.end(), 0.0);
   double expected = 0.0;
-  for (std::size_t k = 0; k < reaches_.size(); ++k) {
-    const double rows = counts_[k / counts_.size()] / (particles + 1.0),
-                 density = counts_[k % counts_.size()] / points_.box().volume();
-    expected += margin * rows * (density * 4.0 / 3.0 * std::numbers::pi * std::pow(reaches_[k], 3) + half_a_vector_of_padding);
-  }
+  for (std::size_t s = 0; s < counts_.size(); ++s)
+    expected += margin * counts_[s] / points_.box().volume() * 4.0 / 3.0 * std::numbers::pi *
+                    std::pow(reaches_[species * counts_.size() + s], 3) +
+                half_a_vector_of_padding;
   return expected;
 }
 
@@ -81,7 +86,7 @@ kernels::NeighbourRows NeighbourList::rows_of(std::size_t block) const {
   return {.points = points_.points(),
           .rows = points_.rows(b.species).data() + b.first_row,
           .row_count = b.row_count,
-          .neighbours = neighbours_[b.array].data() + b.first_neighbour,
+          .neighbours = writers_[b.array].neighbours.data() + b.first_neighbour,
           .lengths = lengths_.data() + b.first_segment,
           .species_count = points_.species(),
           .fixed_points = points_.fixed_points(),
@@ -138,39 +143,37 @@ void NeighbourList::rebuild(const AlignedArray& positions) {
   ++rebuilds_;
   frame_.forget();
   points_.sort(positions);
-  cut_into_blocks();
-  const double expected_each = expected_per_row();
-  for_each_part(threads_, [&](int part) {
-    const auto p = static_cast<std::size_t>(part);
-    std::size_t end = 0, rows = 0;
-    for (std::size_t b = part_begin(blocks_.size(), part, threads_); b < part_begin(blocks_.size(), part + 1, threads_); ++b)
-      rows += blocks_[b].row_count;
-    const auto expected = static_cast<std::size_t>(expected_each * static_cast<double>(rows));
-    if (neighbours_[p].size() < expected) neighbours_[p].resize(expected);
-    for (std::size_t b = part_begin(blocks_.size(), part, threads_); b < part_begin(blocks_.size(), part + 1, threads_); ++b) {
-      fill(blocks_[b], p, end);
-      end += blocks_[b].padded_neighbours;
+  std::vector<double> expected;
+  for (std::size_t s = 0; s < species(); ++s) expected.push_back(expected_per_row(s));
+  share_out([&](const Block& block) { return static_cast<std::size_t>(expected[block.species]) * block.row_count; });
+  double total = 0.0;
+  for (std::size_t s = 0; s < species(); ++s) total += expected[s] * counts_[s];
+  for_each_block(threads_, parts(), [&](std::size_t part) {
+    Writer& writer = writers_[part];
+    writer.end = 0;
+    writer.make_room(static_cast<std::size_t>(total / static_cast<double>(parts())));
+    for (std::size_t b = first_block(part); b < first_block(part + 1); ++b) {
+      blocks_[b].array = part;
+      fill(blocks_[b], writer);
     }
     // Vectors of sixteen lanes read on beyond the padding, where only here there is no neighbour of another row.
-    neighbours_[p].resize(std::max(neighbours_[p].size(), end + kernels::slot_padding));
-    std::fill_n(neighbours_[p].begin() + static_cast<std::ptrdiff_t>(end), kernels::slot_padding, 0U);
+    writer.make_room(kernels::slot_padding);
+    std::fill_n(writer.neighbours.data() + writer.end, kernels::slot_padding, 0U);
   });
-  share_out();
-  frame_.made_at(positions);
+  share_out([](const Block& block) { return block.padded_neighbours; });
+  frame_.made_at(positions, threads_);
 }
 
-void NeighbourList::cut_into_blocks() {
-  blocks_.clear();
-  std::size_t segments = 0;
-  for (std::size_t s = 0; s < points_.species(); ++s) {
-    const std::size_t rows = points_.rows(s).size();
+void NeighbourList::cut_into_blocks(const ParticleLayout& layout) {
+  for (std::size_t s = 0; s < layout.blocks().size(); ++s) {
+    const std::size_t rows = layout.blocks()[s].count;
     for (std::size_t first = 0; first < rows; first += block_rows) {
       const std::size_t count = std::min(block_rows, rows - first);
-      blocks_.push_back({s, first, count, segments, 0, 0, 0});
-      segments += count * points_.species();
+      blocks_.push_back({s, first, count, segments_, 0, 0, 0});
+      segments_ += count * layout.blocks().size();
     }
   }
-  lengths_.resize(segments);
+  lengths_.room_for(segments_);
 }
 
 std::size_t NeighbourList::without_own_images(std::uint32_t place, std::uint32_t* neighbours, std::size_t count) const {
@@ -202,46 +205,98 @@ std::size_t NeighbourList::without_excluded(std::uint32_t place, std::uint32_t* 
   return count;
 }
 
-void NeighbourList::fill(Block& block, std::size_t part, std::size_t begin) {
-  AlignedVector<std::uint32_t>& neighbours = neighbours_[part];
-  const AlignedVector<std::uint32_t>& rows = points_.rows(block.species);
-  std::uint32_t* length = lengths_.data() + block.first_segment;
-  std::size_t end = begin;
-  for (std::size_t k = block.first_row; k < block.first_row + block.row_count; ++k) {
-    const double* position = points_.points() + rows[k];
-    for (std::size_t s = 0; s < points_.species(); ++s, ++length) {
-      const kernels::NeighbourQuery query{{position[0], position[1], position[2]},
-                                          std::max(reaches_[block.species * points_.species() + s], everywhere_),
-                                          rows[k] / static_cast<std::uint32_t>(kernels::point_width)};
-      const auto search = [&] {
-        return table_->points_within(points_.grid(s), query, neighbours.data() + end, neighbours.size() - end);
-      };
-      std::size_t count = search();
-      for (; count + kernels::slot_padding > neighbours.size() - end; count = search())
-        neighbours.resize(neighbours.size() + neighbours.size() / 16 + 4096);
-      count = without_own_images(rows[k], neighbours.data() + end, count);
-      if (exclusions_) count = without_excluded(rows[k], neighbours.data() + end, count);
-      // Whole vectors: what is added is never counted.
-      std::fill_n(neighbours.begin() + static_cast<std::ptrdiff_t>(end + count), padded(count) - count, rows[k]);
-      *length = static_cast<std::uint32_t>(count);
-      end += padded(count);
-    }
-  }
-  block.array = part;
-  block.first_neighbour = begin;
-  block.padded_neighbours = end - begin;
+void NeighbourList::Writer::make_room(std::size_t more) {
+  if (end + more > neighbours.capacity()) neighbours.grow(end + more + end / 16, end);
 }
 
-void NeighbourList::share_out() {
+// Rows follow each other in the order of cells along z.
+NeighbourList::RowGroup NeighbourList::group_at(const Block& block, std::size_t row) const {
+  const std::span<const std::uint32_t> rows = points_.rows(block.species);
+  const kernels::PointGrid grid = points_.grid(block.species);
+  const double widest[3] = {grid.edge[0], grid.edge[1], group_depth * reaches_[block.species * (species() + 1)]};
+  const double* first = points_.points() + rows[row];
+  RowGroup group;
+  group.begin = row;
+  group.count = 0;
+  const std::size_t last = std::min(block.first_row + block.row_count, row + kernels::most_group_rows);
+  for (std::size_t k = row; k < last; ++k) {
+    const double* at = points_.points() + rows[k];
+    if (std::abs(at[0] - first[0]) > widest[0] || std::abs(at[1] - first[1]) > widest[1] || std::abs(at[2] - first[2]) > widest[2])
+      break;
+    group.rows[group.count++] = {{at[0], at[1], at[2]}, rows[k] / static_cast<std::uint32_t>(kernels::point_width)};
+  }
+  return group;
+}
+
+void NeighbourList::search(const RowGroup& group, std::size_t from, std::size_t of, Writer& writer, std::uint32_t* counts) const {
+  const double within = reach(from, of);
+  std::array<std::uint8_t, kernels::most_group_rows> doubtful;  // none: `certain` is the reach
+  for (;;) {
+    const std::size_t stride = writer.near_room + read_ahead;
+    float* near = writer.near.room_for(3 * stride);
+    const kernels::GroupQuery query{group.rows.data(),
+                                    group.count,
+                                    within,
+                                    within,
+                                    points_.offsets(),
+                                    near,
+                                    near + stride,
+                                    near + 2 * stride,
+                                    writer.near_numbers.room_for(stride),
+                                    writer.near_room};
+    const kernels::GroupOutput out{writer.found[of].room_for(writer.found_room + read_ahead), writer.found_room, counts,
+                                   doubtful.data()};
+    if (table_->points_within_group(points_.grid(of), query, out) <= out.capacity) return;
+    writer.near_room = 2 * writer.near_room + 512;
+    writer.found_room = (kernels::most_group_rows + 1) * (writer.near_room + read_ahead);
+  }
+}
+
+std::uint32_t NeighbourList::put_segment(std::uint32_t place, const std::uint32_t* found, std::size_t count, Writer& writer) const {
+  writer.make_room(count + kernels::slot_padding);
+  std::uint32_t* neighbours = writer.neighbours.data() + writer.end;
+  std::copy_n(found, count, neighbours);
+  count = without_own_images(place, neighbours, count);
+  if (exclusions_) count = without_excluded(place, neighbours, count);
+  // Whole vectors: what is added is never counted.
+  std::fill_n(neighbours + count, padded(count) - count, place);
+  writer.end += padded(count);
+  return static_cast<std::uint32_t>(count);
+}
+
+void NeighbourList::fill(Block& block, Writer& writer) {
+  std::vector<std::array<std::uint32_t, kernels::most_group_rows>> counts(species());
+  std::vector<const std::uint32_t*> found(species());
+  std::uint32_t* length = lengths_.data() + block.first_segment;
+  block.first_neighbour = writer.end;
+  for (std::size_t k = block.first_row; k < block.first_row + block.row_count;) {
+    const RowGroup group = group_at(block, k);
+    for (std::size_t s = 0; s < species(); ++s) {
+      search(group, block.species, s, writer, counts[s].data());
+      found[s] = writer.found[s].data();
+    }
+    for (std::size_t row = 0; row < group.count; ++row)
+      for (std::size_t s = 0; s < species(); ++s) {
+        const std::uint32_t place = static_cast<std::uint32_t>(kernels::point_width) * group.rows[row].self;
+        *length++ = put_segment(place, found[s], counts[s][row], writer);
+        found[s] += counts[s][row];
+      }
+    k += group.count;
+  }
+  block.padded_neighbours = writer.end - block.first_neighbour;
+}
+
+template <class Work>
+void NeighbourList::share_out(Work work) {
   const std::size_t parts =
       threads_ == 1 ? 1 : std::clamp<std::size_t>(blocks_.size(), 1, parts_of_thread * static_cast<std::size_t>(threads_));
   std::size_t total = 0, part = 0, so_far = 0;
-  for (const Block& block : blocks_) total += block.padded_neighbours;
+  for (const Block& block : blocks_) total += work(block);
   first_blocks_.assign(parts + 1, blocks_.size());
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     // A part begins with the block in whose first half its share begins.
-    while (part < parts && so_far + blocks_[b].padded_neighbours / 2 >= total * part / parts) first_blocks_[part++] = b;
-    so_far += blocks_[b].padded_neighbours;
+    while (part < parts && so_far + work(blocks_[b]) / 2 >= total * part / parts) first_blocks_[part++] = b;
+    so_far += work(blocks_[b]);
   }
 }
 
@@ -250,12 +305,18 @@ int useful_threads(std::size_t particles, int wanted) {
   return std::clamp(static_cast<int>(std::min<std::size_t>(particles / rows_per_thread, 4096)), 1, wanted);
 }
 
-std::size_t NeighbourList::neighbours() const { return std::accumulate(lengths_.begin(), lengths_.end(), std::size_t{0}); }
+std::size_t NeighbourList::neighbours() const {
+  return rebuilds_ > 0 ? std::accumulate(lengths_.data(), lengths_.data() + segments_, std::size_t{0}) : 0;
+}
 
 std::size_t NeighbourList::memory() const {
   std::size_t bytes = points_.memory() + frame_.memory() + boxes_before_.capacity() * sizeof(double) +
                       blocks_.capacity() * sizeof(Block) + lengths_.capacity() * sizeof(std::uint32_t);
-  for (const auto& neighbours : neighbours_) bytes += neighbours.capacity() * sizeof(std::uint32_t);
+  for (const Writer& writer : writers_) {
+    bytes += writer.neighbours.capacity() * sizeof(std::uint32_t);
+    bytes += writer.near.capacity() * sizeof(float) + writer.near_numbers.capacity() * sizeof(std::uint32_t);
+    for (const auto& found : writer.found) bytes += found.capacity() * sizeof(std::uint32_t);
+  }
   return bytes;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -11,6 +13,7 @@
 #include "core/box.hpp"
 #include "kernel_table.hpp"
 #include "neighbour/exclusions.hpp"
+#include "neighbour/kept_array.hpp"
 #include "neighbour/list_frame.hpp"
 #include "neighbour/periodic_points.hpp"
 
@@ -54,10 +57,10 @@ class NeighbourList {
   std::size_t species_of(std::size_t block) const { return blocks_[block].species; }
   kernels::NeighbourRows rows_of(std::size_t block) const;
   // The array that holds a block's neighbours, and the offset of the first. For arrays of the same shape.
-  std::size_t arrays() const { return neighbours_.size(); }
+  std::size_t arrays() const { return writers_.size(); }
   std::size_t array_of(std::size_t block) const { return blocks_[block].array; }
   std::size_t first_neighbour(std::size_t block) const { return blocks_[block].first_neighbour; }
-  std::size_t array_size(std::size_t array) const { return neighbours_[array].size(); }
+  std::size_t array_size(std::size_t array) const { return writers_[array].end + kernels::slot_padding; }
   // The unit of the points as integers; 0 without them [sigma].
   double fixed_unit() const { return points_.fixed_unit(); }
   // Parts for each thread: what is left over when a thread has ended is small.
@@ -85,8 +88,23 @@ class NeighbourList {
   struct Block {
     std::size_t species, first_row, row_count;  // rows of that species
     std::size_t first_segment;                  // in lengths_
-    std::size_t array, first_neighbour;         // in neighbours_[array]
+    std::size_t array, first_neighbour;         // of the writer that has made it
     std::size_t padded_neighbours;
+  };
+  // What is written for a part of the blocks: their neighbours; and scratch of the search.
+  struct alignas(64) Writer {
+    KeptArray<std::uint32_t> neighbours;
+    std::size_t end = 0;
+    std::vector<KeptArray<std::uint32_t>> found;  // of each species, row after row of a group
+    KeptArray<std::uint32_t> near_numbers;
+    KeptArray<float> near;  // copies of the points near a group, a coordinate after the other
+    std::size_t near_room = 0, found_room = 0;
+    void make_room(std::size_t more);
+  };
+  // Rows of a block that are near each other and search together, and how many of each species each has found.
+  struct RowGroup {
+    std::size_t begin, count;
+    std::array<kernels::GroupRow, kernels::most_group_rows> rows;
   };
   void rebuild(const AlignedArray& positions);
   // For a new list in this box.
@@ -94,12 +112,21 @@ class NeighbourList {
   bool moved_too_far(const AlignedArray& positions);
   // Whether that was due to whole boxes alone, which are then taken out.
   bool take_out_boxes(const AlignedArray& positions);
-  void cut_into_blocks();
-  void fill(Block& block, std::size_t part, std::size_t begin);
+  void cut_into_blocks(const ParticleLayout& layout);
+  // Reach of a search from a row of one species for points of another.
+  double reach(std::size_t from, std::size_t of) const { return std::max(reaches_[from * species() + of], everywhere_); }
+  void fill(Block& block, Writer& writer);
+  RowGroup group_at(const Block& block, std::size_t row) const;
+  // Puts what each row of a group finds of a species behind each other, and how many these are into counts.
+  void search(const RowGroup& group, std::size_t from, std::size_t of, Writer& writer, std::uint32_t* counts) const;
+  // Puts them into the list; returns their number.
+  std::uint32_t put_segment(std::uint32_t place, const std::uint32_t* found, std::size_t count, Writer& writer) const;
   std::size_t without_own_images(std::uint32_t place, std::uint32_t* neighbours, std::size_t count) const;
   std::size_t without_excluded(std::uint32_t place, std::uint32_t* neighbours, std::size_t count) const;
-  void share_out();
-  double expected_per_row() const;  // offsets, padding included
+  // Cuts blocks into parts of about the same work(block).
+  template <class Work>
+  void share_out(Work work);
+  double expected_per_row(std::size_t species) const;  // offsets, padding included
 
   const kernels::KernelTable* table_;
   std::size_t slots_;
@@ -114,9 +141,10 @@ class NeighbourList {
   PeriodicPoints points_;
   std::vector<Block> blocks_;
   std::vector<std::size_t> first_blocks_;
-  std::vector<double> counts_;                            // particles of each species
-  std::vector<AlignedVector<std::uint32_t>> neighbours_;  // of all blocks that a part has made
-  AlignedVector<std::uint32_t> lengths_;                  // of all blocks
+  std::vector<double> counts_;        // particles of each species
+  std::vector<Writer> writers_;       // one for each part
+  KeptArray<std::uint32_t> lengths_;  // of all blocks
+  std::size_t segments_ = 0;
   std::uint64_t rebuilds_ = 0;
 };
 

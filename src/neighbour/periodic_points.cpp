@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "core/coordinate_checks.hpp"
 #include "core/error.hpp"
@@ -16,6 +17,8 @@
 namespace lanescape {
 namespace {
 
+// Each part counts the points of all cells, so that there should not be many.
+constexpr std::size_t parts_of_thread = 2;
 // Beyond, wrapping leaves too few digits.
 constexpr double most_boxes_away = 1e12;
 
@@ -37,20 +40,26 @@ PeriodicPoints::PeriodicPoints(const Box& box, const ParticleLayout& layout, std
       threads_(threads),
       fixed_unit_(fixed_unit),
       grids_(margins.size()),
-      images_(static_cast<std::size_t>(threads)),
-      places_(static_cast<std::size_t>(threads)) {
+      parts_(threads == 1 ? 1 : parts_of_thread * static_cast<std::size_t>(threads)) {
   for (std::size_t s = 0; s < margins.size(); ++s) grids_[s].margin = margins[s];
   set_box(box);
 }
 
 void PeriodicPoints::set_box(const Box& box) {
   whole_box_ = box_ = box;
-  std::size_t particles = 0;
+  shape_grids();
+  sparse_ = lanescape::is_sparse(box, particles_, largest_margin());
+}
+
+void PeriodicPoints::shape_grids() {
+  cells_ = particles_ = 0;
   for (std::size_t s = 0; s < grids_.size(); ++s) {
     shape_grid(grids_[s], blocks_[s].count);
-    particles += blocks_[s].count;
+    grids_[s].first_cell = cells_;
+    grids_[s].first_particle = particles_;
+    cells_ += grids_[s].cells();
+    particles_ += blocks_[s].count;
   }
-  sparse_ = lanescape::is_sparse(box, particles, largest_margin());
 }
 
 double PeriodicPoints::largest_margin() const {
@@ -103,7 +112,7 @@ void PeriodicPoints::close_wide_gaps(const AlignedArray& positions) {
       check_boxes_away(positions[axis * layout_slots_ + slot], home_boxes_[slot][axis], whole_box_.length[axis]);
     });
   }
-  for (std::size_t s = 0; s < grids_.size(); ++s) shape_grid(grids_[s], blocks_[s].count);
+  shape_grids();
 }
 
 template <bool sparse>
@@ -138,90 +147,134 @@ std::array<int, 3> PeriodicPoints::boxes(std::size_t k) const {
 }
 
 template <bool sparse>
-void PeriodicPoints::list_images(const AlignedArray& positions, const kernels::SpeciesBlock& block, const Grid& grid,
-                                 std::size_t begin, std::size_t end, AlignedVector<Image>& images) const {
-  images.clear();
-  for (std::size_t slot = block.begin + begin; slot < block.begin + end; ++slot) {
-    const std::array<double, 3> home = home_of<sparse>(positions, slot);
-    std::array<double, 3> x{};
-    std::array<std::int16_t, 3> least{}, most{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double length = box_.length[axis];
-      x[axis] = positions[axis * layout_slots_ + slot];
-      const double wrapped = x[axis] + (sparse ? home_shifts_[slot][axis] : home[axis] * length);
-      if (wrapped >= grid.margin && wrapped <= length - grid.margin) continue;
-      const double down = std::floor((wrapped + grid.margin) / length), up = std::floor((length + grid.margin - wrapped) / length);
-      least[axis] = down > 0.0 ? static_cast<std::int16_t>(-down) : std::int16_t{0};
-      most[axis] = up > 0.0 ? static_cast<std::int16_t>(up) : std::int16_t{0};
-    }
-    Image image{static_cast<std::uint32_t>(slot), 0, {}};
-    auto& [a, b, c] = image.boxes;
-    for (a = least[0]; a <= most[0]; ++a)
-      for (b = least[1]; b <= most[1]; ++b)
-        for (c = least[2]; c <= most[2]; ++c) {
-          const std::array<double, 3> shift = shift_of<sparse>(image, home);
-          image.cell = static_cast<std::uint32_t>(grid.cell_of({x[0] + shift[0], x[1] + shift[1], x[2] + shift[2]}));
-          images.push_back(image);
-        }
+void PeriodicPoints::list_images_of(const AlignedArray& positions, std::size_t slot, const Grid& grid, Part& part) const {
+  const std::array<double, 3> home = home_of<sparse>(positions, slot);
+  std::array<double, 3> x{};
+  std::array<std::int16_t, 3> least{}, most{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double length = box_.length[axis];
+    x[axis] = positions[axis * layout_slots_ + slot];
+    const double wrapped = x[axis] + (sparse ? home_shifts_[slot][axis] : home[axis] * length);
+    if (wrapped >= grid.margin && wrapped <= length - grid.margin) continue;
+    const double down = std::floor((wrapped + grid.margin) / length), up = std::floor((length + grid.margin - wrapped) / length);
+    least[axis] = down > 0.0 ? static_cast<std::int16_t>(-down) : std::int16_t{0};
+    most[axis] = up > 0.0 ? static_cast<std::int16_t>(up) : std::int16_t{0};
   }
+  Image image{static_cast<std::uint32_t>(slot), 0, {}};
+  auto& [a, b, c] = image.boxes;
+  for (a = least[0]; a <= most[0]; ++a)
+    for (b = least[1]; b <= most[1]; ++b)
+      for (c = least[2]; c <= most[2]; ++c) {
+        const std::array<double, 3> shift = shift_of<sparse>(image, home);
+        image.cell =
+            static_cast<std::uint32_t>(grid.first_cell + grid.cell_of({x[0] + shift[0], x[1] + shift[1], x[2] + shift[2]}));
+        ++part.places[image.cell];
+        part.images.push_back(image);
+      }
 }
 
-void PeriodicPoints::sort(const AlignedArray& positions) {
-  slots_.clear();
-  shifts_.clear();
-  if (sparse_) close_wide_gaps(positions);
-  for (std::size_t s = 0; s < grids_.size(); ++s) sparse_ ? sort_species<true>(positions, s) : sort_species<false>(positions, s);
-  const std::size_t n = size();
-  points_.resize(kernels::point_width * n, 0.0);
-  if (fixed_unit_ > 0.0) fixed_points_.resize(kernels::point_width * n, 0);
-  for_each_part(threads_, [&](int part) { refresh(positions, part); });
-  for (auto& column : columns_) column.resize(n + read_ahead, 0.0F);
-  for_each_part(threads_, [&](int part) {
-    for (std::size_t k = part_begin(n, part, threads_); k < part_begin(n, part + 1, threads_); ++k)
-      for (std::size_t axis = 0; axis < 3; ++axis) columns_[axis][k] = static_cast<float>(points_[kernels::point_width * k + axis]);
-  });
-}
-
-// A counting sort: each part counts its own particles' images per cell and stores them after those of earlier parts.
 template <bool sparse>
-void PeriodicPoints::sort_species(const AlignedArray& positions, std::size_t species) {
-  Grid& grid = grids_[species];
-  const std::size_t cell_count = grid.shape.cells[0] * grid.shape.cells[1] * grid.shape.cells[2];
-  const kernels::SpeciesBlock& block = blocks_[species];
-  for_each_part(threads_, [&](int part) {
-    const auto p = static_cast<std::size_t>(part);
-    list_images<sparse>(positions, block, grid, part_begin(block.count, part, threads_),
-                        part_begin(block.count, part + 1, threads_), images_[p]);
-    places_[p].assign(cell_count, 0);
-    for (const Image& image : images_[p]) ++places_[p][image.cell];
-  });
-  const std::size_t base = slots_.size();
-  std::size_t next = base;
-  grid.first.resize(cell_count + 1);
-  for (std::size_t cell = 0; cell < cell_count; ++cell) {
-    grid.first[cell] = static_cast<std::uint32_t>(next);
-    for (auto& places : places_) {
-      const std::uint32_t count = places[cell];
-      places[cell] = static_cast<std::uint32_t>(next);
-      next += count;
-    }
+void PeriodicPoints::list_images(const AlignedArray& positions, std::size_t part) {
+  const std::size_t begin = particles_ * part / parts_.size(), end = particles_ * (part + 1) / parts_.size();
+  Part& own = parts_[part];
+  own.images.clear();
+  own.places.assign(cells_, 0);
+  for (std::size_t s = 0; s < grids_.size(); ++s) {
+    const std::size_t first = grids_[s].first_particle, last = first + blocks_[s].count;
+    for (std::size_t k = std::max(begin, first); k < std::min(end, last); ++k)
+      list_images_of<sparse>(positions, blocks_[s].begin + (k - first), grids_[s], own);
   }
-  grid.first[cell_count] = static_cast<std::uint32_t>(next);
-  slots_.resize(next);
-  shifts_.resize(next);
-  own_.resize(next - base);
-  for_each_part(threads_, [&](int part) {
-    const auto p = static_cast<std::size_t>(part);
-    for (const Image& image : images_[p]) {
-      const std::uint32_t place = places_[p][image.cell]++;
-      slots_[place] = image.slot;
-      shifts_[place] = shift_of<sparse>(image, home_of<sparse>(positions, image.slot));
-      own_[place - base] = image.boxes == std::array<std::int16_t, 3>{};
-    }
+}
+
+// A counting sort: each part of the particles counts its images per cell and stores them after those of earlier parts, so that the
+// order does not depend on how many parts there are.
+void PeriodicPoints::sort(const AlignedArray& positions) {
+  if (sparse_) close_wide_gaps(positions);
+  sparse_ ? sort_points<true>(positions) : sort_points<false>(positions);
+}
+
+template <bool sparse>
+void PeriodicPoints::sort_points(const AlignedArray& positions) {
+  const auto for_each = [&](const auto& body) { for_each_block(threads_, parts_.size(), body); };
+  for_each([&](std::size_t part) { list_images<sparse>(positions, part); });
+  place_cells();
+  sorted_.room_for(size_);
+  slots_.room_for(size_);
+  shifts_.room_for(size_);
+  points_.room_for(kernels::point_width * size_);
+  if (fixed_unit_ > 0.0) fixed_points_.room_for(kernels::point_width * size_);
+  for (auto& column : columns_) std::fill_n(column.room_for(size_ + read_ahead) + size_, read_ahead, 0.0F);
+  for_each([&](std::size_t part) {
+    for (const Image& image : parts_[part].images) sorted_[parts_[part].places[image.cell]++] = image;
   });
-  grid.rows.clear();
-  for (std::size_t k = base; k < next; ++k)
-    if (own_[k - base]) grid.rows.push_back(static_cast<std::uint32_t>(kernels::point_width * k));
+  for_each([&](std::size_t part) { put_points<sparse>(positions, part); });
+  number_points();
+  rows_.room_for(particles_);
+  std::size_t rows = 0;
+  for (Part& part : parts_) rows += std::exchange(part.rows, rows);
+  for_each([&](std::size_t part) { put_rows(part, parts_[part].rows); });
+}
+
+// The same after every sort: written once, until there are more points.
+void PeriodicPoints::number_points() {
+  if (const std::size_t n = size_ + read_ahead; n > numbered_) {
+    numbered_ = n + n / 16;
+    offsets_.room_for(numbered_);
+    for_each_part(threads_, [&](int part) {
+      for (std::size_t k = part_begin(numbered_, part, threads_); k < part_begin(numbered_, part + 1, threads_); ++k)
+        offsets_[k] = static_cast<std::uint32_t>(kernels::point_width * k);
+    });
+  }
+}
+
+void PeriodicPoints::count_points(std::size_t part) {
+  std::size_t points = 0;
+  for (const Part& other : parts_)
+    for (std::size_t cell = cells_ * part / parts_.size(); cell < cells_ * (part + 1) / parts_.size(); ++cell)
+      points += other.places[cell];
+  parts_[part].points = points;
+}
+
+void PeriodicPoints::place_points(std::size_t part, std::size_t next) {
+  for (std::size_t cell = cells_ * part / parts_.size(); cell < cells_ * (part + 1) / parts_.size(); ++cell) {
+    first_[cell] = static_cast<std::uint32_t>(next);
+    for (Part& other : parts_) next += std::exchange(other.places[cell], static_cast<std::uint32_t>(next));
+  }
+}
+
+void PeriodicPoints::place_cells() {
+  for_each_block(threads_, parts_.size(), [&](std::size_t part) { count_points(part); });
+  size_ = 0;
+  for (Part& part : parts_) size_ += std::exchange(part.points, size_);
+  first_.room_for(cells_ + 1);
+  first_[cells_] = static_cast<std::uint32_t>(size_);
+  for_each_block(threads_, parts_.size(), [&](std::size_t part) { place_points(part, parts_[part].points); });
+}
+
+template <bool sparse>
+void PeriodicPoints::put_points(const AlignedArray& positions, std::size_t part) {
+  std::size_t rows = 0;
+  const std::size_t begin = size_ * part / parts_.size(), end = size_ * (part + 1) / parts_.size();
+  for (std::size_t k = begin; k < end; ++k) {
+    const Image& image = sorted_[k];
+    const std::array<double, 3> shift = shift_of<sparse>(image, home_of<sparse>(positions, image.slot));
+    slots_[k] = image.slot;
+    shifts_[k] = shift;
+    rows += image.is_own();
+    double* point = points_.data() + kernels::point_width * k;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      point[axis] = positions[axis * layout_slots_ + image.slot] + shift[axis];
+      columns_[axis][k] = static_cast<float>(point[axis]);
+    }
+    point[3] = 0.0;
+  }
+  parts_[part].rows = rows;
+  if (fixed_unit_ > 0.0) fix_points(begin, end);
+}
+
+void PeriodicPoints::put_rows(std::size_t part, std::size_t next) {
+  for (std::size_t k = size_ * part / parts_.size(); k < size_ * (part + 1) / parts_.size(); ++k)
+    if (sorted_[k].is_own()) rows_[next++] = static_cast<std::uint32_t>(kernels::point_width * k);
 }
 
 void PeriodicPoints::stretch_to(const Box& box, int part) {
@@ -274,7 +327,7 @@ void PeriodicPoints::fix_points(std::size_t begin, std::size_t end) {
 
 kernels::PointGrid PeriodicPoints::grid(std::size_t species) const {
   kernels::PointGrid view = grids_[species].shape;
-  view.first = grids_[species].first.data();
+  view.first = first_.data() + grids_[species].first_cell;
   view.x = columns_[0].data();
   view.y = columns_[1].data();
   view.z = columns_[2].data();
@@ -282,12 +335,11 @@ kernels::PointGrid PeriodicPoints::grid(std::size_t species) const {
 }
 
 std::size_t PeriodicPoints::memory() const {
-  std::size_t bytes = points_.capacity() * sizeof(double) + fixed_points_.capacity() * sizeof(std::int32_t) +
-                      slots_.capacity() * sizeof(std::uint32_t) + shifts_.capacity() * sizeof(shifts_[0]);
-  for (const auto& column : columns_) bytes += column.capacity() * sizeof(float);
-  for (const auto& images : images_) bytes += images.capacity() * sizeof(Image);
-  for (const auto& places : places_) bytes += places.capacity() * sizeof(std::uint32_t);
-  for (const Grid& grid : grids_) bytes += (grid.first.capacity() + grid.rows.capacity()) * sizeof(std::uint32_t);
+  const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(*array.data()); };
+  std::size_t bytes = bytes_of(points_) + bytes_of(fixed_points_) + bytes_of(slots_) + bytes_of(shifts_) + bytes_of(first_) +
+                      bytes_of(rows_) + bytes_of(offsets_) + bytes_of(sorted_);
+  for (const auto& column : columns_) bytes += bytes_of(column);
+  for (const Part& part : parts_) bytes += bytes_of(part.images) + bytes_of(part.places);
   return bytes;
 }
 

@@ -3,11 +3,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "configuration/particle_layout.hpp"
 #include "core/aligned_array.hpp"
 #include "core/box.hpp"
+#include "neighbour/kept_array.hpp"
 #include "views/grid.hpp"
 #include "views/pair.hpp"
 
@@ -46,12 +48,12 @@ class PeriodicPoints {
   void set_values(const AlignedArray& per_slot, std::size_t stride, int part);  // of a part of the points, one per thread
 
   std::size_t species() const { return grids_.size(); }
-  std::size_t size() const { return slots_.size(); }
+  std::size_t size() const { return size_; }
   // Records of kernels::point_width doubles.
   const double* points() const { return points_.data(); }
   const double* point(std::size_t k) const { return points_.data() + kernels::point_width * k; }
   // The same in units of fixed_unit(), modulo 2^32: records of kernels::point_width integers. Null if there are none.
-  const std::int32_t* fixed_points() const { return fixed_points_.empty() ? nullptr : fixed_points_.data(); }
+  const std::int32_t* fixed_points() const { return fixed_unit_ > 0.0 ? fixed_points_.data() : nullptr; }
   double fixed_unit() const { return fixed_unit_; }
   // The slot of the particle that a point is, or is an image of.
   std::uint32_t slot(std::size_t k) const { return slots_[k]; }
@@ -60,26 +62,39 @@ class PeriodicPoints {
   // The box that the points of the last sort fill, its wide gaps narrowed.
   const Box& box() const { return box_; }
   // Offsets of the points of a species that are in the box, one for each particle, in the order of points.
-  const AlignedVector<std::uint32_t>& rows(std::size_t species) const { return grids_[species].rows; }
+  std::span<const std::uint32_t> rows(std::size_t species) const {
+    return {rows_.data() + grids_[species].first_particle, blocks_[species].count};
+  }
 
   // A species' points as they were sorted, for kernels::KernelTable::points_within.
   kernels::PointGrid grid(std::size_t species) const;
+  // The offset of each point, which is what a list holds of it; readable beyond the last as the grid is.
+  const std::uint32_t* offsets() const { return offsets_.data(); }
   std::size_t memory() const;  // [bytes]
 
  private:
   struct Grid {
     double margin = 0.0;
-    kernels::PointGrid shape{};          // its pointers are set when it is handed out
-    AlignedVector<std::uint32_t> first;  // of each cell's points; one more at the end
-    AlignedVector<std::uint32_t> rows;
+    kernels::PointGrid shape{};  // its pointers are set when it is handed out
+    std::size_t first_cell = 0;  // among the cells of all species, one after the other
+    std::size_t first_particle = 0;
+    std::size_t cells() const { return shape.cells[0] * shape.cells[1] * shape.cells[2]; }
     std::size_t cell_of(const std::array<double, 3>& position) const;
   };
   struct Image {
     std::uint32_t slot, cell;
     std::array<std::int16_t, 3> boxes;  // from the particle's own point in the box
+    bool is_own() const { return (boxes[0] | boxes[1] | boxes[2]) == 0; }
+  };
+  // The work of a sort is cut into parts, several for each thread: particles, cells or points.
+  struct Part {
+    AlignedVector<Image> images;          // of its particles
+    AlignedVector<std::uint32_t> places;  // per cell: the number of these; then where the next of them goes
+    std::size_t points = 0, rows = 0;     // in its cells; among its points
   };
 
   double largest_margin() const;
+  void shape_grids();
   void shape_grid(Grid& grid, std::size_t particles) const;
   // Narrows the wide gaps of a sparse box: sets the box, its grids and the home shifts.
   void close_wide_gaps(const AlignedArray& positions);
@@ -89,10 +104,19 @@ class PeriodicPoints {
   template <bool sparse>
   std::array<double, 3> shift_of(const Image& image, const std::array<double, 3>& home) const;
   template <bool sparse>
-  void list_images(const AlignedArray& positions, const kernels::SpeciesBlock& block, const Grid& grid, std::size_t begin,
-                   std::size_t end, AlignedVector<Image>& images) const;
+  void list_images(const AlignedArray& positions, std::size_t part);
   template <bool sparse>
-  void sort_species(const AlignedArray& positions, std::size_t species);
+  void list_images_of(const AlignedArray& positions, std::size_t slot, const Grid& grid, Part& part) const;
+  // Where the points of each cell begin, and those that each part has in it.
+  void place_cells();
+  void count_points(std::size_t part);
+  void place_points(std::size_t part, std::size_t next);
+  template <bool sparse>
+  void sort_points(const AlignedArray& positions);
+  template <bool sparse>
+  void put_points(const AlignedArray& positions, std::size_t part);
+  void number_points();
+  void put_rows(std::size_t part, std::size_t next);
   // Of the points [begin, end).
   void fix_points(std::size_t begin, std::size_t end);
 
@@ -102,18 +126,21 @@ class PeriodicPoints {
   int threads_;
   double fixed_unit_;
   std::vector<Grid> grids_;
-  AlignedArray points_;
-  AlignedVector<std::int32_t> fixed_points_;
-  AlignedVector<std::uint32_t> slots_;
-  AlignedVector<std::array<double, 3>> shifts_;
+  std::size_t cells_ = 0, particles_ = 0;  // of all species
+  std::size_t size_ = 0, numbered_ = 0;
+  KeptArray<double> points_;
+  KeptArray<std::int32_t> fixed_points_;
+  KeptArray<std::uint32_t> slots_;
+  KeptArray<std::array<double, 3>> shifts_;
+  KeptArray<std::uint32_t> first_;  // of each cell's points; one more at the end
+  KeptArray<std::uint32_t> rows_, offsets_;
   bool sparse_ = false;
   // Of a sparse box, per slot: the shift that brings a particle into box_, and the boxes among it.
   std::vector<std::array<double, 3>> home_shifts_, home_boxes_;
-  std::array<AlignedVector<float>, 3> columns_;
-  // Scratch arrays of a sort, kept to reuse their memory.
-  std::vector<AlignedVector<Image>> images_;
-  std::vector<AlignedVector<std::uint32_t>> places_;
-  std::vector<std::uint8_t> own_;  // whether a point is in the box, no image
+  std::array<KeptArray<float>, 3> columns_;
+  // Scratch of a sort, kept to reuse its memory.
+  std::vector<Part> parts_;
+  KeptArray<Image> sorted_;
 };
 
 }  // namespace lanescape

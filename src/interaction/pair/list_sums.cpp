@@ -24,6 +24,7 @@ ListSums::ListSums(const PairModel& model, const Box& box, const ParticleLayout&
       pairs_(pair_parameters(model)),
       list_(box, layout, cutoffs(pairs_, diameter_scale(model, layout)), skin, table, threads,
             precision == Precision::mixed ? NeighbourList::Coordinates::floating_and_fixed : NeighbourList::Coordinates::floating) {
+  sums_.resize(list_.block_count());
   if (precision == Precision::mixed) single_pairs_ = single_pair_parameters(pairs_, list_.fixed_unit());
   if (model.form->has_diameters) diameters_ = layout.diameters();
   for (std::size_t b = 0; b < layout.blocks().size(); ++b) {
@@ -39,7 +40,6 @@ void ListSums::for_each_block(const AlignedArray& positions, Evaluate evaluate) 
     list_.set_values(diameters_, 1);
     diameters_at_ = list_.rebuilds();
   }
-  sums_.assign(list_.block_count(), {});
   const std::size_t species = list_.species();
   lanescape::for_each_block(list_.threads(), list_.parts(), [&](std::size_t part) {
     alignas(kernels::array_alignment) std::array<double, kernels::point_width * NeighbourList::block_rows> records;
@@ -81,7 +81,9 @@ kernels::PairOutput ListSums::total() const {
 double ListSums::energy(const AlignedArray& positions) {
   const auto sum = precision_ == Precision::mixed ? kernels_->list_energy_mixed : kernels_->list_energy;
   for_each_block(positions, [&](std::size_t b, const kernels::PairListInput& in, double*) { sums_[b].energy = sum(in); });
-  return total().energy;
+  double energy = 0.0;  // block after block, as in total()
+  for (const kernels::PairOutput& of_block : sums_) energy += of_block.energy;
+  return energy;
 }
 
 void ListSums::energies(const AlignedArray& positions, AlignedArray& energies) {
@@ -107,6 +109,7 @@ void ListSums::gradient_only(const AlignedArray& positions, AlignedArray& gradie
 }
 
 void ListSums::gradient(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) {
+  std::fill(sums_.begin(), sums_.end(), kernels::PairOutput{});  // a stress may have been summed before
   const auto sum = precision_ == Precision::mixed ? kernels_->list_gradient_mixed : kernels_->list_gradient;
   for_each_block(positions, [&](std::size_t b, const kernels::PairListInput& in, double* records) {
     sum(in, records, sums_[b]);

@@ -69,7 +69,7 @@ void GapList::exchange(Archive& archive) {
   AlignedArray reference = half_skin_.reference();
   archive.field("rebuilt_at", reference);
   if (archive.reading()) {
-    half_skin_.reference().clear();
+    half_skin_.forget();
     if (!reference.empty()) rebuild(reference);
   }
   archive.field("rebuilds", rebuilds_);
