@@ -75,10 +75,13 @@ Configuration surroundings(const Configuration& all, std::size_t particle, doubl
   return near;
 }
 
+// Mixed precision takes clusters where they are faster.
+PairSearch search_of(Precision precision) { return precision == Precision::mixed ? PairSearch::automatic : PairSearch::list; }
+
 std::string check_gradient(const System& system, Precision precision) {
   const ParticleLayout layout = ParticleLayout::in_space_order(system.configuration, system.model.species.size());
   PairInteraction interaction(system.model, system.configuration.box, layout, kernel_table(choose_isa("auto")),
-                              {.search = PairSearch::list, .precision = precision});
+                              {.search = search_of(precision), .precision = precision});
   AlignedArray in_slots(layout.dimension(), 0.0);
   interaction.gradient(layout.to_slots(system.configuration.positions), in_slots);
   const std::vector<double> gradient = layout.to_user(in_slots);
@@ -167,7 +170,7 @@ struct Setting {
   int threads;
   Precision precision = Precision::double_precision;
 
-  PairSearchOptions search() const { return {.search = PairSearch::list, .threads = threads, .precision = precision}; }
+  PairSearchOptions search() const { return {.search = search_of(precision), .threads = threads, .precision = precision}; }
 };
 
 void set_time_counters(benchmark::State& state, const System& system, int threads, double seconds) {
@@ -199,13 +202,13 @@ void evaluate(benchmark::State& state, Quantity quantity, const Setting& setting
 
   const double operations = 2.0 * (quantity == Quantity::energy ? 6.0 : 15.0) * system.pairs;
   const double peak = 2.0 * static_cast<double>(kernel_table(setting.isa).lanes) / seconds_per_vector_instruction(setting.isa);
-  const NeighbourList& list = *interaction.list();
   const auto n = static_cast<double>(system.configuration.size());
-  const double bytes = 4.0 * static_cast<double>(list.neighbours()) + (32.0 + 24.0 + 24.0) * n;
   state.counters["gflops"] = 1e-9 * operations / seconds;
   state.counters["fraction_of_peak"] = operations / seconds / peak / setting.threads;
+  state.counters["bytes_per_particle"] = static_cast<double>(interaction.list_memory()) / n;
+  if (interaction.list() == nullptr) return;
+  const double bytes = 4.0 * static_cast<double>(interaction.list()->neighbours()) + (32.0 + 24.0 + 24.0) * n;
   state.counters["flops_per_byte"] = operations / bytes;
-  state.counters["bytes_per_particle"] = static_cast<double>(list.memory()) / n;
 }
 
 // Rebuilds the list: particles move forth and back by the skin.
@@ -250,7 +253,7 @@ void contour_step(benchmark::State& state, const Setting& setting) {
   const ParticleLayout layout = ParticleLayout::in_space_order(system.configuration, system.model.species.size());
   PairLandscape landscape(
       system.model, system.configuration.box, layout, setting.isa,
-      {.search = PairSearch::list, .threads = setting.threads, .skin = path_skin, .precision = setting.precision});
+      {.search = search_of(setting.precision), .threads = setting.threads, .skin = path_skin, .precision = setting.precision});
   AlignedArray start = layout.to_slots(system.configuration.positions), goal, gradient(layout.dimension(), 0.0);
   {
     VelocityVerlet verlet(landscape, system.model, layout, start, 2e-3);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pair_kernels.hpp"
+#include "views/cluster.hpp"
 #include "views/flight.hpp"
 #include "views/grid.hpp"
 #include "views/layout.hpp"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pair_forms.hpp"
+#include "views/cluster.hpp"
 #include "views/pair.hpp"
 #include "views/probe.hpp"
 
@@ -27,6 +28,13 @@ struct PairKernels {
   double (*list_energy_mixed)(const PairListInput&) noexcept;
   void (*list_force_mixed)(const PairListInput&, double* gradient) noexcept;
   void (*list_gradient_mixed)(const PairListInput&, double* gradient, PairOutput&) noexcept;
+
+  // Over clusters, in mixed precision as above, but each pair once: energy and virial are those of all pairs of the lists, and
+  // gradients, in 1/fixed_unit, are added to records with the offsets of the points'. Results that several of the three compute
+  // agree to the bit. Null for a form that has diameters.
+  double (*cluster_energy)(const ClusterInput&) noexcept;
+  void (*cluster_force)(const ClusterInput&, float* gradients) noexcept;
+  void (*cluster_gradient)(const ClusterInput&, float* gradients, PairOutput&) noexcept;
 
   // What a particle outside the fluid would feel at a position; and the energies at many positions, x0 y0 z0 x1 ..., with the same
   // bits.

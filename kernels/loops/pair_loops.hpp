@@ -1,6 +1,7 @@
 #pragma once
 
 #include "loops/all_pairs.hpp"
+#include "loops/clusters.hpp"
 #include "loops/list.hpp"
 #include "loops/list_mixed.hpp"
 #include "loops/probe.hpp"
@@ -47,6 +48,21 @@ struct PairLoops {
   static void list_gradient_mixed(const PairListInput& in, double* gradient, PairOutput& out) noexcept {
     sum_list_mixed<Form, Output::gradient>(in, gradient, out);
   }
+  static double cluster_energy(const ClusterInput& in) noexcept {
+    Totals totals;
+    sum_clusters<Form, Output::energy>(in, nullptr, totals);
+    return reduce_add(totals.energy);
+  }
+  static void cluster_force(const ClusterInput& in, float* gradients) noexcept {
+    Totals totals;
+    sum_clusters<Form, Output::force>(in, gradients, totals);
+  }
+  static void cluster_gradient(const ClusterInput& in, float* gradients, PairOutput& out) noexcept {
+    Totals totals;
+    sum_clusters<Form, Output::gradient>(in, gradients, totals);
+    out.energy = reduce_add(totals.energy);
+    out.virial = reduce_add(totals.virial);
+  }
   static void probe(const ProbeInput& in, const double* position, ProbeOutput& out) noexcept {
     out.energy = sum_probe<Exact, Output::gradient>(in, position, out.gradient);
   }
@@ -55,7 +71,7 @@ struct PairLoops {
   }
 
   static constexpr PairKernels kernels() noexcept {
-    return {.in_box_units = Exact::specialised,
+    PairKernels kernels{.in_box_units = Exact::specialised,
             .energy = all_pairs_energy,
             .gradient = all_pairs<Output::gradient>,
             .stress = all_pairs<Output::stress>,
@@ -66,8 +82,17 @@ struct PairLoops {
             .list_energy_mixed = list_energy_mixed,
             .list_force_mixed = list_force_mixed,
             .list_gradient_mixed = list_gradient_mixed,
+            .cluster_energy = nullptr,
+            .cluster_force = nullptr,
+            .cluster_gradient = nullptr,
             .probe = probe,
             .probe_energies = probe_energies};
+    if constexpr (!Exact::has_diameters) {
+      kernels.cluster_energy = cluster_energy;
+      kernels.cluster_force = cluster_force;
+      kernels.cluster_gradient = cluster_gradient;
+    }
+    return kernels;
   }
 };
 

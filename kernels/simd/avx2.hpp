@@ -135,6 +135,17 @@ inline void gather_differences(const std::int32_t* base, const std::uint32_t* of
   z = from(_mm256_unpacklo_epi64(z_ab, z_cd), 2);
 }
 
+using FixedVector = __m256i;
+inline FixedVector load_cluster(const std::int32_t* p) noexcept { return _mm256_load_si256(reinterpret_cast<const __m256i*>(p)); }
+inline FixedVector load_rows(const std::int32_t* p) noexcept { return _mm256_set1_epi32(*p); }
+inline FloatVector wrapped_difference(FixedVector a, FixedVector b) noexcept { return _mm256_cvtepi32_ps(_mm256_sub_epi32(a, b)); }
+inline void subtract_from_cluster(float* p, FloatVector v) noexcept { _mm256_store_ps(p, _mm256_sub_ps(_mm256_load_ps(p), v)); }
+inline void add_to_rows(float* p, const FloatVector* v) noexcept {
+  const __m256 four = _mm256_hadd_ps(_mm256_hadd_ps(v[0], v[1]), _mm256_hadd_ps(v[2], v[3]));
+  const __m128 rows = _mm_add_ps(_mm256_castps256_ps128(four), _mm256_extractf128_ps(four, 1));
+  _mm_store_ps(p, _mm_add_ps(_mm_load_ps(p), rows));
+}
+
 inline Vector add_halves(FloatVector v) noexcept {
   return _mm256_add_pd(_mm256_cvtps_pd(_mm256_castps256_ps128(v)), _mm256_cvtps_pd(_mm256_extractf128_ps(v, 1)));
 }

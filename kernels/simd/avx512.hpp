@@ -153,6 +153,27 @@ inline void gather_differences(const std::int32_t* base, const std::uint32_t* of
   z = from(low.z, high.z, 2);
 }
 
+using FixedVector = __m512i;
+inline FixedVector load_cluster(const std::int32_t* p) noexcept {
+  return _mm512_broadcast_i32x8(_mm256_load_si256(reinterpret_cast<const __m256i*>(p)));
+}
+inline FixedVector load_rows(const std::int32_t* p) noexcept {
+  return _mm512_inserti64x4(_mm512_set1_epi32(p[0]), _mm256_set1_epi32(p[1]), 1);
+}
+inline FloatVector wrapped_difference(FixedVector a, FixedVector b) noexcept { return _mm512_cvtepi32_ps(_mm512_sub_epi32(a, b)); }
+inline void subtract_from_cluster(float* p, FloatVector v) noexcept {
+  const __m256 rows = _mm256_add_ps(_mm512_castps512_ps256(v), _mm512_extractf32x8_ps(v, 1));
+  _mm256_store_ps(p, _mm256_sub_ps(_mm256_load_ps(p), rows));
+}
+inline void add_to_rows(float* p, const FloatVector* v) noexcept {
+  // In each 128 bits: rows 0 and 2 twice in the first half, rows 1 and 3 twice in the second.
+  const __m512 pairs = _mm512_add_ps(_mm512_unpacklo_ps(v[0], v[1]), _mm512_unpackhi_ps(v[0], v[1]));
+  const __m512 sums = _mm512_add_ps(pairs, _mm512_shuffle_f32x4(pairs, pairs, 0xb1));
+  const __m128 even = _mm512_castps512_ps128(sums), odd = _mm512_extractf32x4_ps(sums, 2);
+  const __m128 rows = _mm_add_ps(_mm_unpacklo_ps(even, odd), _mm_unpackhi_ps(even, odd));
+  _mm_store_ps(p, _mm_add_ps(_mm_load_ps(p), rows));
+}
+
 inline Vector add_halves(FloatVector v) noexcept {
   return _mm512_add_pd(_mm512_cvtps_pd(_mm512_castps512_ps256(v)), _mm512_cvtps_pd(_mm512_extractf32x8_ps(v, 1)));
 }

@@ -209,6 +209,24 @@ inline void gather_differences(const std::int32_t* base, const std::uint32_t* of
   z = from(2);
 }
 
+struct FixedVector {
+  std::int32_t lane[lanes_of<FloatVector>];
+};
+inline FixedVector load_cluster(const std::int32_t* p) noexcept {
+  return lanewise<FixedVector>([&](std::size_t k) { return p[k]; });
+}
+inline FixedVector load_rows(const std::int32_t* p) noexcept {
+  return lanewise<FixedVector>([&](std::size_t) { return *p; });
+}
+inline FloatVector wrapped_difference(FixedVector a, FixedVector b) noexcept {
+  return lanewise<FloatVector>([&](std::size_t k) { return wrapped_difference(a.lane[k], b.lane[k]); });
+}
+inline void subtract_from_cluster(float* p, FloatVector v) noexcept { store(p, load(p) - v); }
+inline void add_to_rows(float* p, const FloatVector* v) noexcept {
+  for (std::size_t row = 0; row < 4; ++row)
+    for (std::size_t k = 0; k < lanes_of<FloatVector>; ++k) p[row] += v[row].lane[k];
+}
+
 inline Vector add_halves(FloatVector v) noexcept {
   return lanewise<Vector>(
       [&](std::size_t k) { return static_cast<double>(v.lane[k]) + static_cast<double>(v.lane[k + lanes_of<Vector>]); });

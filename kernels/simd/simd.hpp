@@ -63,6 +63,12 @@ inline constexpr std::size_t float_lanes = lanes_of<FloatVector>;
 //   wrapped_difference(p, s)             p[k] - s in wrapping 32-bit arithmetic
 //   gather_differences(base, offset, origin, x, y, z)      the same of records of four integers, 16-byte aligned, with those of
 //                                        `origin`; the record of lane k is offset[k] integers from base
+//   FixedVector load_cluster(p)          integers p[0 ... 7] in the lanes of each row of a vector: AVX-512 has two rows, others one;
+//                                        SSE2 has four lanes and needs two vectors for a cluster of eight
+//   FixedVector load_rows(p)             p[row] in all lanes of a row
+//   wrapped_difference(a, b)             of two FixedVectors
+//   subtract_from_cluster(p, v)          the rows of v from p[0 ... 7], aligned to a row
+//   add_to_rows(p, v)                    the lane sums of four rows, in as many vectors as they take, to p[0 ... 3], 16-byte aligned
 //   compress_store_offsets(p, bits, first)      compress_store of the numbers 4 (first + lane)
 //   Vector add_halves(v)                 lower half + upper half, in double precision
 

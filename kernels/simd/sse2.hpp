@@ -98,6 +98,17 @@ inline void gather_differences(const std::int32_t* base, const std::uint32_t* of
   z = from(_mm_unpacklo_epi64(z_ab, z_cd), 2);
 }
 
+using FixedVector = __m128i;
+inline FixedVector load_cluster(const std::int32_t* p) noexcept { return _mm_load_si128(reinterpret_cast<const __m128i*>(p)); }
+inline FixedVector load_rows(const std::int32_t* p) noexcept { return _mm_set1_epi32(*p); }
+inline FloatVector wrapped_difference(FixedVector a, FixedVector b) noexcept { return _mm_cvtepi32_ps(_mm_sub_epi32(a, b)); }
+inline void subtract_from_cluster(float* p, FloatVector v) noexcept { _mm_store_ps(p, _mm_sub_ps(_mm_load_ps(p), v)); }
+inline void add_to_rows(float* p, const FloatVector* v) noexcept {
+  __m128 a = v[0], b = v[1], c = v[2], d = v[3];
+  _MM_TRANSPOSE4_PS(a, b, c, d);
+  _mm_store_ps(p, _mm_add_ps(_mm_load_ps(p), _mm_add_ps(_mm_add_ps(a, b), _mm_add_ps(c, d))));
+}
+
 inline Vector add_halves(FloatVector v) noexcept { return _mm_add_pd(_mm_cvtps_pd(v), _mm_cvtps_pd(_mm_movehl_ps(v, v))); }
 inline void store_truncated(std::int32_t* out, Vector v) noexcept {
   _mm_storel_epi64(reinterpret_cast<__m128i*>(out), _mm_cvttpd_epi32(v));

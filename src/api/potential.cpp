@@ -13,7 +13,6 @@
 #include "dispatch/isa.hpp"
 #include "interaction/pair/pair_interaction.hpp"
 #include "interaction/pair/pair_moves.hpp"
-#include "neighbour/neighbour_list.hpp"
 
 namespace lanescape {
 LANESCAPE_ABI_BEGIN
@@ -41,8 +40,7 @@ struct Potential::Implementation {
   const AlignedArray& slots_of(const Vectors<const double>& host) {
     if (species.size() >= ParticleLayout::sorted_from) {
       check_positions(host, species.size());
-      const NeighbourList* list = interaction.list();
-      if (order.renew(interleaved(host), box, list != nullptr ? list->rebuilds() : 0)) {
+      if (order.renew(interleaved(host), box, interaction.rebuilds())) {
         arrays = HostArrays(order.layout());
         interaction = make();
         if (!exclusions.empty()) interaction.set_exclusions(exclusions);

@@ -19,7 +19,7 @@ class PairLandscape final : public SoftLandscape {
   double energy_and_gradient(const AlignedArray& position, AlignedArray& gradient) override;
   void gradient(const AlignedArray& position, AlignedArray& gradient) override { interaction_.gradient(position, gradient); }
   std::unique_ptr<SegmentBound> segment_bound(double longest) const override { return interaction_.segment_bound(longest); }
-  bool has_history() const override { return interaction_.list() != nullptr; }
+  bool has_history() const override { return interaction_.has_list(); }
   void pass_over(const AlignedArray& position) override { interaction_.pass_over(position); }
   void exchange(Archive& archive) override { interaction_.exchange(archive); }
 

@@ -264,6 +264,28 @@ std::vector<PairCase> form_cases(const PairForm& form) {
   return cases;
 }
 
+std::vector<PairCase> cluster_cases(const PairForm& form) {
+  std::vector<PairCase> cases;
+  if (form.has_diameters) return cases;
+  for (const auto& numbers : numbers_of(form))
+    for (const auto& [n, box] : {std::pair<std::size_t, Box>{1, cube(7.5)},
+                                 {9, cube(7.5)},
+                                 {60, {{7.1, 9.3, 8.0}}},
+                                 {351, cube(7.3)},
+                                 {500, {{7.0, 7.2, 11.0}}}}) {
+      const PairModel model = two_species(form, numbers);
+      const Configuration configuration = rattled(densest_lattice(n), box, model.species.size());
+      for (const Truncation truncation : {Truncation::shifted, Truncation::tail, Truncation::shifted_force, Truncation::smooth}) {
+        const PairModel truncated = with(model, ImageRule::all, truncation);
+        if (allows(truncated))
+          cases.push_back(
+              {fmt::format("{} {} N={} box {} {}", form.word, fmt::join(numbers, ","), n, box.length[0], to_string(truncation)),
+               truncated, configuration});
+      }
+    }
+  return cases;
+}
+
 std::vector<PairCase> all_pair_cases() {
   std::vector<PairCase> cases = pair_cases();
   for (const PairForm& form : pair_forms().subspan(1))

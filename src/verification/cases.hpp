@@ -22,6 +22,8 @@ std::vector<PairCase> pair_cases();
 // Fewer cases of the same kind for any pair potential: sizes, image rules, every truncation that it allows, two species.
 std::vector<PairCase> form_cases(const PairForm& form);
 // Both of these for all pair potentials: what kernels of hosts are checked on. Names are unique.
+// Liquids in boxes that clusters need, from single particles to some hundred; none for a form with diameters.
+std::vector<PairCase> cluster_cases(const PairForm& form);
 std::vector<PairCase> all_pair_cases();
 // Prefix of the names of its kernels' results: its keyword, with underscores.
 std::string name_in_results(const PairForm& form);

@@ -9,6 +9,7 @@
 
 #include "configuration/particle_layout.hpp"
 #include "core/aligned_array.hpp"
+#include "interaction/pair/cluster_sums.hpp"
 #include "interaction/pair/pair_interaction.hpp"
 #include "interaction/pair/pair_parameters.hpp"
 #include "verification/check.hpp"
@@ -122,6 +123,11 @@ bool has_list(const PairCase& one) {
   return fits_list(one.model, one.configuration.box, default_skin, diameter_scale(one.model, layout));
 }
 
+bool has_clusters(const PairCase& one) {
+  const ParticleLayout layout = ParticleLayout::in_users_order(one.configuration, one.model.species.size());
+  return has_list(one) && ClusterSums::can_hold(one.model, one.configuration.box, layout, default_skin);
+}
+
 bool has_pair_at_cutoff(const PairCase& one, double margin) {
   PairModel nearer = one.model;
   nearer.truncation = Truncation::plain;
@@ -141,9 +147,12 @@ std::vector<Deviation> verify_lists(const kernels::KernelTable& table, const std
   return verify_search(table, cases, PairSearch::list, form + "_list_");
 }
 
-std::vector<Deviation> verify_mixed(const kernels::KernelTable& table, const std::vector<PairCase>& cases,
-                                    const std::string& form) {
-  const std::string prefix = form + "_list_";
+namespace {
+
+bool has(PairSearch search, const PairCase& one) { return search == PairSearch::clusters ? has_clusters(one) : has_list(one); }
+
+std::vector<Deviation> verify_single(const kernels::KernelTable& table, const std::vector<PairCase>& cases, PairSearch search,
+                                     const std::string& prefix) {
   Check energy(table, prefix + "energy_mixed", tolerance::mixed_sums),
       gradient_energy(table, prefix + "gradient_mixed energy", tolerance::mixed_sums),
       gradient(table, prefix + "gradient_mixed gradient",
@@ -154,11 +163,11 @@ std::vector<Deviation> verify_mixed(const kernels::KernelTable& table, const std
   Check gradient_bits(table, fmt::format("{0}force_mixed, {0}gradient_mixed: same gradient", prefix), tolerance::exact);
   for (const PairCase& one : cases) {
     const auto& [name, model, configuration] = one;
-    if (!has_list(one) || has_pair_at_cutoff(one, tolerance::mixed_cutoff)) continue;
+    if (!has(search, one) || has_pair_at_cutoff(one, tolerance::mixed_cutoff)) continue;
     const reference::Evaluation expected = evaluate_reference(model, configuration);
     const ParticleLayout layout = ParticleLayout::in_users_order(configuration, model.species.size());
     const AlignedArray positions = layout.to_slots(configuration.positions);
-    PairInteraction interaction(model, configuration.box, layout, table, {.precision = Precision::mixed});
+    PairInteraction interaction(model, configuration.box, layout, table, {.search = search, .precision = Precision::mixed});
     AlignedArray g(layout.dimension(), std::numeric_limits<double>::quiet_NaN()), g_only = g;
     const double e = interaction.energy(positions);
     interaction.gradient(positions, g_only);
@@ -175,10 +184,25 @@ std::vector<Deviation> verify_mixed(const kernels::KernelTable& table, const std
           virial.deviation, energy_bits.deviation,     gradient_bits.deviation};
 }
 
+}  // namespace
+
+std::vector<Deviation> verify_mixed(const kernels::KernelTable& table, const std::vector<PairCase>& cases,
+                                    const std::string& form) {
+  return verify_single(table, cases, PairSearch::list, form + "_list_");
+}
+
+std::vector<Deviation> verify_clusters(const kernels::KernelTable& table, const std::vector<PairCase>& cases,
+                                       const std::string& form) {
+  if (cases.empty() || cases.front().model.form->has_diameters) return {};
+  std::vector<PairCase> all = cluster_cases(*cases.front().model.form);
+  all.insert(all.end(), cases.begin(), cases.end());
+  return verify_single(table, all, PairSearch::clusters, form + "_cluster_");
+}
+
 std::vector<Deviation> verify_pairs(const kernels::KernelTable& table, const std::vector<PairCase>& cases,
                                     const std::string& form) {
   std::vector<Deviation> deviations = verify_all_pairs(table, cases, form);
-  for (auto verify : {verify_lists, verify_mixed, verify_probes})
+  for (auto verify : {verify_lists, verify_mixed, verify_clusters, verify_probes})
     for (auto& deviation : verify(table, cases, form)) deviations.push_back(std::move(deviation));
   return deviations;
 }

@@ -83,6 +83,13 @@ TEST_P(LennardJonesParity, MixedPrecisionAgreesWithTheReferenceOnEveryCaseThatAl
   }
 }
 
+TEST_P(LennardJonesParity, ClustersAgreeWithTheReferenceOnEveryCaseThatTheyCanHold) {
+  for (const Deviation& deviation : verify_clusters(kernel_table(GetParam()), every_case())) {
+    RecordProperty(deviation.kernel, describe(deviation));
+    EXPECT_TRUE(deviation.passed()) << describe(deviation);
+  }
+}
+
 TEST_P(LennardJonesParity, AForcedInstructionSetIsTheOneThatRuns) {
   const std::string name = to_string(GetParam());
   ASSERT_EQ(choose_isa(name), GetParam());

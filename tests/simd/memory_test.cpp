@@ -73,6 +73,37 @@ TEST_P(Memory, DifferencesOfIntegersWrapAround) {
   }
 }
 
+TEST_P(Memory, RowsOfAVectorMeetTheParticlesOfACluster) {
+  Lanes<std::int32_t> cluster{}, rows{};
+  for (std::size_t k = 0; k < 8; ++k) cluster[k] = wrapping[k % std::size(wrapping)];
+  const std::size_t width = float_lanes() / simd().rows_per_vector;
+  for (std::size_t k = 0; k < simd().rows_per_vector; ++k) rows[k] = wrapping[(k + 3) % std::size(wrapping)];
+  Lanes<float> out{};
+  simd().cluster_differences(cluster.data(), rows.data(), out.data());
+  for (std::size_t k = 0; k < float_lanes(); ++k) EXPECT_EQ(out[k], difference(cluster[k % width], rows[k / width]));
+}
+
+TEST_P(Memory, GradientsGoToTheParticlesOfAClusterAndToRows) {
+  const std::size_t width = float_lanes() / simd().rows_per_vector;
+  Lanes<float> v{}, p{}, row_sums{};
+  for (std::size_t k = 0; k < 4 * width; ++k) v[k] = static_cast<float>(k * k + 1);
+  for (std::size_t k = 0; k < 8; ++k) p[k] = row_sums[k] = 1000.0F;
+  simd().subtract_from_cluster(p.data(), v.data());
+  for (std::size_t k = 0; k < 8; ++k) {
+    float sum = 0.0F;
+    for (std::size_t row = 0; row < simd().rows_per_vector && k < width; ++row) sum += v[row * width + k];
+    EXPECT_EQ(p[k], 1000.0F - sum) << k;
+  }
+  simd().add_to_rows(row_sums.data(), v.data());
+  for (std::size_t k = 0; k < 8; ++k) {
+    // Four rows, two to a vector or one.
+    const std::size_t vector = k / simd().rows_per_vector, row = k % simd().rows_per_vector;
+    float sum = 0.0F;
+    for (std::size_t lane = 0; lane < width && k < 4; ++lane) sum += v[vector * float_lanes() + row * width + lane];
+    EXPECT_EQ(row_sums[k], 1000.0F + sum) << k;
+  }
+}
+
 TEST_P(Memory, GathersDifferencesFromAnOrigin) {
   Lanes<std::int32_t> base{};
   for (std::size_t k = 0; k < base.size(); ++k) base[k] = wrapping[k % std::size(wrapping)];

@@ -117,6 +117,13 @@ void gather_differences_of(const std::int32_t* base, const std::uint32_t* offset
   store(out + 2 * float_lanes, z);
 }
 
+constexpr std::size_t rows_of_cluster = float_lanes > 8 ? float_lanes / 8 : 1;
+void add_to_rows_of(float* p, const float* v) noexcept {
+  FloatVector rows[4];
+  for (std::size_t k = 0; k < 4 / rows_of_cluster; ++k) rows[k] = load(v + k * float_lanes);
+  add_to_rows(p, rows);
+}
+
 }  // namespace
 
 extern __attribute__((visibility("default"))) const testing::SimdOperations operations;
@@ -142,6 +149,11 @@ constinit const testing::SimdOperations operations{
     .store_wrapped = [](std::int32_t* out, const double* v) { store_wrapped(out, load(v)); },
     .store_fractions = [](std::int32_t* out, const double* v) { store_fractions(out, load(v)); },
     .store_nearest_whole = store_nearest_whole_of,
+    .rows_per_vector = rows_of_cluster,
+    .cluster_differences = [](const std::int32_t* cluster, const std::int32_t* rows,
+                              float* out) { store(out, wrapped_difference(load_cluster(cluster), load_rows(rows))); },
+    .subtract_from_cluster = [](float* p, const float* v) { subtract_from_cluster(p, load(v)); },
+    .add_to_rows = add_to_rows_of,
     .wrapped_difference = [](const std::int32_t* p, std::int32_t s, float* out) { store(out, wrapped_difference(p, s)); },
     .gather_differences = gather_differences_of,
     .compress_store_offsets = compress_store_offsets,

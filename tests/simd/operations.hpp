@@ -55,6 +55,12 @@ struct SimdOperations {
   void (*store_fractions)(std::int32_t* out, const double* v);
   void (*store_nearest_whole)(std::uint32_t* out, double* whole, const double* v, double factor);
 
+  std::size_t rows_per_vector;  // of clusters
+  // load_cluster(cluster) - load_rows(rows)
+  void (*cluster_differences)(const std::int32_t* cluster, const std::int32_t* rows, float* out);
+  void (*subtract_from_cluster)(float* p, const float* v);
+  void (*add_to_rows)(float* p, const float* v);  // vectors of four rows
+
   void (*wrapped_difference)(const std::int32_t* p, std::int32_t s, float* out);
   void (*gather_differences)(const std::int32_t* base, const std::uint32_t* offset, const std::int32_t* origin,
                              float* out);  // three vectors

@@ -17,6 +17,20 @@ std::vector<double> cutoffs(const std::vector<kernels::PairParameters>& pairs, d
 
 }  // namespace
 
+std::vector<std::size_t> slots_without_particle(const ParticleLayout& layout) {
+  std::vector<std::size_t> slots;
+  for (std::size_t b = 0; b < layout.blocks().size(); ++b) {
+    const std::size_t end = b + 1 < layout.blocks().size() ? layout.blocks()[b + 1].begin : layout.slots();
+    for (std::size_t slot = layout.blocks()[b].begin + layout.blocks()[b].count; slot < end; ++slot) slots.push_back(slot);
+  }
+  return slots;
+}
+
+void clear_slots(const std::vector<std::size_t>& slots, AlignedArray& gradient) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const std::size_t slot : slots) gradient[axis * gradient.size() / 3 + slot] = 0.0;
+}
+
 ListSums::ListSums(const PairModel& model, const Box& box, const ParticleLayout& layout, const kernels::KernelTable& table,
                    double skin, int threads, Precision precision)
     : kernels_(&table.pair_kernels(model.kernel_form().kernel)),
@@ -27,10 +41,7 @@ ListSums::ListSums(const PairModel& model, const Box& box, const ParticleLayout&
   sums_.resize(list_.block_count());
   if (precision == Precision::mixed) single_pairs_ = single_pair_parameters(pairs_, list_.fixed_unit());
   if (model.form->has_diameters) diameters_ = layout.diameters();
-  for (std::size_t b = 0; b < layout.blocks().size(); ++b) {
-    const std::size_t end = b + 1 < layout.blocks().size() ? layout.blocks()[b + 1].begin : layout.slots();
-    for (std::size_t slot = layout.blocks()[b].begin + layout.blocks()[b].count; slot < end; ++slot) padding_.push_back(slot);
-  }
+  padding_ = slots_without_particle(layout);
 }
 
 template <class Evaluate>
@@ -49,11 +60,6 @@ void ListSums::for_each_block(const AlignedArray& positions, Evaluate evaluate) 
                                       single_pairs_.empty() ? nullptr : single_pairs_.data() + list_.species_of(b) * species},
                records.data());
   });
-}
-
-void ListSums::clear_padding(AlignedArray& gradient) const {
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (const std::size_t slot : padding_) gradient[axis * gradient.size() / 3 + slot] = 0.0;
 }
 
 void ListSums::put_gradient(std::size_t block, const double* records, AlignedArray& gradient) const {
@@ -105,7 +111,7 @@ void ListSums::gradient_only(const AlignedArray& positions, AlignedArray& gradie
     sum(in, records);
     put_gradient(b, records, gradient);
   });
-  clear_padding(gradient);
+  clear_slots(padding_, gradient);
 }
 
 void ListSums::gradient(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) {
@@ -115,7 +121,7 @@ void ListSums::gradient(const AlignedArray& positions, AlignedArray& gradient, k
     sum(in, records, sums_[b]);
     put_gradient(b, records, gradient);
   });
-  clear_padding(gradient);
+  clear_slots(padding_, gradient);
   out = total();
 }
 
@@ -124,7 +130,7 @@ void ListSums::stress(const AlignedArray& positions, AlignedArray& gradient, ker
     kernels_->list_stress(in, records, sums_[b]);
     put_gradient(b, records, gradient);
   });
-  clear_padding(gradient);
+  clear_slots(padding_, gradient);
   out = total();
 }
 

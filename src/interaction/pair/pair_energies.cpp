@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "core/float_environment.hpp"
+#include "interaction/pair/cluster_sums.hpp"
 #include "interaction/pair/nearest_rows.hpp"
 #include "interaction/pair/pair_interaction.hpp"
 #include "interaction/pair/pair_parameters.hpp"
@@ -21,6 +22,8 @@ void PairInteraction::energies(const AlignedArray& positions, AlignedArray& ener
   std::fill(energies.begin(), energies.end(), 0.0);
   if (auto* sums = dynamic_cast<ListSums*>(sums_.get()))
     sums->energies(reduced, energies);
+  else if (clusters() != nullptr)
+    clusters()->rows().energies(reduced, energies);
   else
     energies_without_list(reduced, energies);
   add_constants(energies);

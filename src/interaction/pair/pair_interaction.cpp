@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/float_environment.hpp"
+#include "interaction/pair/cluster_sums.hpp"
 #include "interaction/pair/excluding_sums.hpp"
 #include "interaction/pair/nearest_rows.hpp"
 #include "interaction/pair/pair_parameters.hpp"
@@ -42,8 +43,9 @@ std::unique_ptr<PairSums> PairInteraction::make_sums(const Box& box) const {
     if (!exclusions_) return all;
     return std::make_unique<ExcludingSums>(std::move(all), model_, box, layout_, *table_, exclusions_);
   }
-  auto sums = std::make_unique<ListSums>(model_, box, layout_, *table_, options_.skin,
-                                         useful_threads(layout_.size(), options_.threads), options_.precision);
+  const int threads = useful_threads(layout_.size(), options_.threads);
+  if (wants_clusters(box)) return std::make_unique<ClusterSums>(model_, box, layout_, *table_, options_.skin, threads);
+  auto sums = std::make_unique<ListSums>(model_, box, layout_, *table_, options_.skin, threads, options_.precision);
   sums->set_exclusions(exclusions_);
   return sums;
 }
@@ -53,11 +55,23 @@ bool PairInteraction::wants_list(const Box& box) const {
          (exclusions_ && options_.search == PairSearch::automatic && fits_list(model_, box, options_.skin, scale()));
 }
 
+bool PairInteraction::wants_clusters(const Box& box) const {
+  if (options_.precision != Precision::mixed || !wants_list(box)) return false;
+  const bool can = !exclusions_ && ClusterSums::can_hold(model_, box, layout_, options_.skin);
+  if (options_.search != PairSearch::clusters)
+    return can && options_.search == PairSearch::automatic && layout_.size() >= ClusterSums::crossover;
+  if (!can)
+    throw_bad_input(
+        "clusters of particles are not allowed with these: no exclusions and no diameters, a box of twice the cutoff and "
+        "the skin or more, and at most five diameters of cutoff and skin are");
+  return true;
+}
+
 void PairInteraction::set_box(const Box& box) {
   const FloatEnvironment environment;
   check_reach(box, model_.images == ImageRule::minimum ? 0.0 : scale() * model_.largest_cutoff() * reduced_.unit());
   const Box reduced = reduced_.box(box);
-  if (wants_list(reduced) == (list() != nullptr))
+  if (wants_list(reduced) == has_list() && wants_clusters(reduced) == (clusters() != nullptr))
     sums_->set_box(model_, reduced);
   else
     sums_ = make_sums(reduced);
@@ -180,6 +194,20 @@ void PairInteraction::set_exclusions(std::span<const std::array<std::size_t, 2>>
   exclusions_ = pairs.empty() ? nullptr : std::make_shared<const Exclusions>(pairs, layout_);
   spare_.reset();
   sums_ = make_sums(reduced_.box(box_));
+}
+
+ClusterSums* PairInteraction::clusters() const { return dynamic_cast<ClusterSums*>(sums_.get()); }
+
+bool PairInteraction::has_list() const { return list() != nullptr || clusters() != nullptr; }
+
+std::uint64_t PairInteraction::rebuilds() const {
+  if (const ClusterSums* sums = clusters()) return sums->list().rebuilds();
+  return list() == nullptr ? 0 : list()->rebuilds();
+}
+
+std::size_t PairInteraction::list_memory() const {
+  if (const ClusterSums* sums = clusters()) return sums->list().memory();
+  return list() == nullptr ? 0 : list()->memory();
 }
 
 const NeighbourList* PairInteraction::list() const {

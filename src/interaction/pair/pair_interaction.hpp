@@ -21,6 +21,7 @@
 
 namespace lanescape {
 
+class ClusterSums;
 class Exclusions;
 class ListSums;
 class NearestRows;
@@ -75,7 +76,11 @@ class PairInteraction {
 
   // What else than positions and box the bits of a result depend on: where a list was made.
   void exchange(Archive& archive);
-  // The list, if there is one.
+  // Whether pairs are found by a list, of neighbours or of clusters; how often it was made, and its memory [bytes].
+  bool has_list() const;
+  std::uint64_t rebuilds() const;
+  std::size_t list_memory() const;
+  // The list of neighbours, if that is it.
   const NeighbourList* list() const;
 
  private:
@@ -88,6 +93,8 @@ class PairInteraction {
   void add_images_of_one(const PairNumbers& numbers, double count, Evaluation& sum) const;
   void add_tail();
   bool wants_list(const Box& reduced) const;
+  bool wants_clusters(const Box& reduced) const;
+  ClusterSums* clusters() const;  // null if there are none
   // Half of each pair of each slot, where no list is at hand.
   void energies_without_list(const AlignedArray& reduced, AlignedArray& energies);
   void add_constants(AlignedArray& energies) const;

@@ -44,12 +44,15 @@ void check_precision(const PairModel& model, const Box& box, Precision precision
 bool takes_list(const PairModel& model, const Box& box, double scale, std::size_t particles, const PairSearchOptions& options) {
   if (options.precision == Precision::mixed && options.search == PairSearch::all_pairs)
     throw_bad_input("mixed precision needs a neighbour list: over all pairs there is double precision only");
+  if (options.precision != Precision::mixed && options.search == PairSearch::clusters)
+    throw_bad_input("clusters of particles need mixed precision");
   switch (options.search) {
     case PairSearch::all_pairs:
       return false;
     case PairSearch::list:
       check_list(model, box, scale, options.precision, options.skin);
       return true;
+    case PairSearch::clusters:
     case PairSearch::automatic:
       break;
   }

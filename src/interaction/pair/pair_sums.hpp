@@ -16,6 +16,10 @@
 
 namespace lanescape {
 
+// Slots of a layout that have no particle, and what their gradients are.
+std::vector<std::size_t> slots_without_particle(const ParticleLayout& layout);
+void clear_slots(const std::vector<std::size_t>& slots, AlignedArray& gradient);
+
 // The sums over pairs that depend on positions, by whichever way of finding the pairs; PairInteraction adds the rest.
 class PairSums {
  public:
@@ -83,7 +87,6 @@ class ListSums final : public PairSums {
   // evaluate(input of a block's rows, records for their gradients, sums of the block) for every block.
   template <class Evaluate>
   void for_each_block(const AlignedArray& positions, Evaluate evaluate);
-  void clear_padding(AlignedArray& gradient) const;
   void put_gradient(std::size_t block, const double* records, AlignedArray& gradient) const;
   kernels::PairOutput total() const;
 

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/archive.hpp"
+#include "core/parallel.hpp"
+#include "neighbour/cluster_blocks.hpp"
+#include "neighbour/cluster_columns.hpp"
+#include "neighbour/list_frame.hpp"
+
+namespace lanescape {
+
+// Pairs of clusters within a cutoff, with two skins: lists with the larger one are rebuilt rarely; from them those that are
+// evaluated are pruned more often. Both happen once a particle has moved by half of the skin, so that no pair is missed. Pruning
+// leaves out pairs that contribute nothing and keeps their order, so that no bit of a sum depends on when it happened: the
+// positions of the last rebuild are all that a run has to keep.
+class ClusterList {
+ public:
+  // `cutoffs`: species x species, symmetric [sigma]. Of boxes with edges of at least twice the longest cutoff and the larger skin.
+  ClusterList(const Box& box, const ParticleLayout& layout, const std::vector<double>& cutoffs, double skin,
+              const kernels::KernelTable& table, int threads);
+
+  // The larger skin, which goes with a skin for lists that are not pruned.
+  static constexpr double outer_skin(double skin) { return 3.0 * skin; }
+
+  // Calls evaluate(block, pair, lists, gradients) for the lists of each block and pair of species, at the positions of the last
+  // update().
+  template <class Evaluate>
+  void for_each_block(Evaluate evaluate) {
+    lanescape::for_each_block(threads_, blocks_.count(), [&](std::size_t b) {
+      blocks_.load(b, columns_);
+      if (prune_) blocks_.prune(b);
+      for (std::size_t p = 0; p < blocks_.species_pairs().size(); ++p) evaluate(b, p, blocks_.lists(b, p), blocks_.gradients(b));
+    });
+    prune_ = false;
+  }
+  // Writes `unit` times the gradients that were collected to every slot that has a particle.
+  void put_gradients(double unit, AlignedArray& gradient) const;
+
+  // As an evaluation at these positions does.
+  void update(const AlignedArray& positions);
+  // Takes another box for what follows. Rebuilds lists then only if they do not outlast the change.
+  void set_box(const Box& box);
+
+  std::size_t block_count() const { return blocks_.count(); }
+  const std::vector<ClusterBlocks::SpeciesPair>& species_pairs() const { return blocks_.species_pairs(); }
+  double fixed_unit() const { return columns_.fixed_unit(); }  // [sigma]
+  std::uint64_t rebuilds() const { return rebuilds_; }
+  std::size_t memory() const;  // [bytes]
+
+  // Archives where lists were made; reading rebuilds them there.
+  void exchange(Archive& archive);
+
+ private:
+  void rebuild(const AlignedArray& positions);
+  // The square of the longest displacement since lists were pruned; brings clusters up to date along the way.
+  double displacement_squared(const AlignedArray& positions);
+  bool is_due(const AlignedArray& positions) const;
+
+  const kernels::KernelTable* table_;
+  std::size_t slots_;
+  int threads_;
+  double allowed_;  // displacement before lists are pruned again
+  ListFrame frame_;
+  ClusterColumns columns_;
+  ClusterBlocks blocks_;
+  AlignedArray pruned_at_;  // empty: nowhere yet
+  bool prune_ = false;
+  std::uint64_t rebuilds_ = 0;
+};
+
+}  // namespace lanescape
