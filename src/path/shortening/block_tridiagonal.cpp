@@ -29,6 +29,17 @@ void BlockTridiagonal::set_zero() {
   });
 }
 
+void BlockTridiagonal::add_square(AlignedArray& block, double factor, const double* x) const {
+  for (std::size_t panel = 0; panel < panels_; ++panel) {
+    const std::size_t first = panel * kernels::panel_width, width = std::min(kernels::panel_width, dimension_ - first);
+    for (std::size_t row = 0; row < dimension_; ++row) {
+      double* const to = block.data() + kernels::panel_offset(rows_, row, first);
+      const double scaled = factor * x[row];
+      for (std::size_t column = 0; column < width; ++column) to[column] += scaled * x[first + column];
+    }
+  }
+}
+
 BlockTridiagonal::Side BlockTridiagonal::side(std::size_t which) const {
   const std::size_t last = blocks() - 1;
   return which == 0 ? Side{middle_, true, last} : Side{last - middle_, false, last};

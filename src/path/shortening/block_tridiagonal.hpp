@@ -30,6 +30,9 @@ class BlockTridiagonal {
   void add_coupling(std::size_t block, std::size_t row, std::size_t column, double x) {
     coupling_[block][block < middle_ ? kernels::panel_offset(rows_, row, column) : kernels::panel_offset(rows_, column, row)] += x;
   }
+  // Adds factor x x^T, of `dimension` numbers x, to all of a block.
+  void add_square(std::size_t block, double factor, const double* x) { add_square(diagonal_[block], factor, x); }
+  void add_coupling_square(std::size_t block, double factor, const double* x) { add_square(coupling_[block], factor, x); }
 
   // Overwrites the matrix by its factor. Returns false, with the matrix spoilt, if it is not positive definite; set_zero() begins
   // anew.
@@ -53,6 +56,7 @@ class BlockTridiagonal {
   template <class Body>
   void for_each_panel(const Body& body) const;
 
+  void add_square(AlignedArray& block, double factor, const double* x) const;
   bool factor_block(const Side& side, std::size_t step);
   void solve_panel(const Side& side, std::size_t step, std::size_t panel);
   void subtract_panel(const Side& side, std::size_t step, std::size_t panel);

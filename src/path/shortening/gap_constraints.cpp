@@ -72,17 +72,22 @@ class GapConstraints::Builder {
     const Point before = separation_at(from, pair, owner_->box_), behind = separation_at(to, pair, owner_->box_);
     const auto plane = [&](const Point& normal, const Point& d, std::array<double, 2> shares, std::uint64_t place) {
       const double gap = dot(normal, d) - contact;
-      if (gap < owner_->options_.reach) out.push_back(constraint(pair, normal, gap, shares, place));
+      if (gap >= owner_->options_.reach) return false;
+      out.push_back(constraint(pair, normal, gap, shares, place));
+      return true;
     };
-    if (!last_) plane(unit_vector(behind), behind, {0.0, 1.0}, 1);
-    if (first_ && pair.fraction < 1.0)
-      plane(tangent_through(before, behind, contact), behind, {0.0, 1.0}, 0);
-    else if (last_ && pair.fraction > 0.0)
-      plane(tangent_through(behind, before, contact), before, {1.0, 0.0}, 0);
-    else if (!first_ && !last_ && pair.fraction > 0.0 && pair.fraction < 1.0) {
-      const std::size_t before_this = out.size();
-      plane(unit_vector(pair.separation), pair.separation, {1.0 - pair.fraction, pair.fraction}, 0);
-      if (out.size() > before_this) add_turns(pair, difference(behind, before), out.back());
+    const auto follow = [&](const Point& d, std::array<double, 2> shares, std::uint64_t place) {
+      if (!plane(unit_vector(d), d, shares, place)) return false;
+      out.back().distance = std::sqrt(dot(d, d));
+      return true;
+    };
+    if (!last_) follow(behind, {0.0, 1.0}, 1);
+    if (first_) {
+      if (pair.fraction < 1.0) plane(tangent_through(before, behind, contact), behind, {0.0, 1.0}, 0);
+    } else if (last_) {
+      if (pair.fraction > 0.0) plane(tangent_through(behind, before, contact), before, {1.0, 0.0}, 0);
+    } else if (follow(pair.separation, {1.0 - pair.fraction, pair.fraction}, 0) && pair.fraction > 0.0 && pair.fraction < 1.0) {
+      add_turns(pair, difference(behind, before), out.back());
     }
   }
 
@@ -90,12 +95,10 @@ class GapConstraints::Builder {
   // Of the point nearest to the other sphere on a segment along `move`.
   void add_turns(const Approach& pair, const Point& move, GapConstraint& c) const {
     const double length = std::sqrt(dot(move, move));
-    c.distance = std::sqrt(dot(pair.separation, pair.separation));
     for (std::size_t node = 0; node < 2; ++node)
       for (std::size_t sphere = 0; sphere < 2; ++sphere) {
-        const double scale =
-            (sphere == 0 ? -1.0 : 1.0) * owner_->scale_[static_cast<std::size_t>(sphere == 0 ? pair.first : pair.second)];
-        const double along = scale * c.shares[node] / length, across = (node == 0 ? -1.0 : 1.0) * scale / length;
+        const double scale = c.scales[sphere] / length;
+        const double along = scale * c.shares[node], across = (node == 0 ? -1.0 : 1.0) * scale;
         for (std::size_t axis = 0; axis < 3; ++axis)
           c.turns[node][sphere][axis] = along * move[axis] + across * pair.separation[axis];
       }
@@ -103,13 +106,10 @@ class GapConstraints::Builder {
   GapConstraint constraint(const Approach& pair, const Point& normal, double gap, std::array<double, 2> shares,
                            std::uint64_t place) const {
     const auto i = static_cast<std::size_t>(pair.first), j = static_cast<std::size_t>(pair.second);
-    const auto slope = [&](double sign, std::size_t slot) {
-      const double factor = sign * owner_->scale_[slot];
-      return Point{factor * normal[0], factor * normal[1], factor * normal[2]};
-    };
     return {key_of(pair, place),
             {owner_->coordinates_.first_of(i), owner_->coordinates_.first_of(j)},
-            {slope(-1.0, i), slope(1.0, j)},
+            normal,
+            {-owner_->scale_[i], owner_->scale_[j]},
             shares,
             gap - owner_->options_.margin};
   }
@@ -161,7 +161,7 @@ void GapConstraints::follow(const Polyline& nodes, double barrier, bool keep_sla
       const GapConstraint* const known = same_constraint(before[k], now);
       now.slack = std::max(now.gap, known && keep_slacks ? known->slack : std::sqrt(barrier));
       const double central = barrier / now.slack;
-      now.stiffness = known ? known->multiplier / now.distance : 0.0;
+      now.stiffness = known && now.distance > 0.0 ? known->multiplier / now.distance : 0.0;
       now.multiplier = known ? std::clamp(known->multiplier, central / neighbourhood, central * neighbourhood) : central;
     }
 }

@@ -14,31 +14,41 @@
 
 namespace lanescape {
 
-// That a pair does not overlap, to first order in moves of the nodes of one segment: gap + sum of slopes . moves >= 0.
+// That a pair does not overlap, to first order in moves of the nodes of one segment: gap + change >= 0. Its second derivative is
+// (across^2 - turn^2) / distance.
 struct GapConstraint {
   std::uint64_t key;              // of the pair, its image and where on the segment it holds
   std::array<std::size_t, 2> at;  // the first of three coordinates of each sphere, in the order of SphereCoordinates
-  std::array<Point, 2> slopes;    // of the gap, for a move of each sphere [sigma of distance per kinematic length]
+  Point normal;                   // along the separation
+  std::array<double, 2> scales;   // of the separation, for a move of each sphere [sigma of distance per kinematic length]
   std::array<double, 2> shares;   // of the moves of the node before and behind the segment
   double gap;                     // [sigma]
-  // A closest approach moves along the segment where that turns: the second derivative of the gap has the part minus
-  // turns turns^T / distance, here of each sphere at each node; zero for other constraints.
+  // How far the closest approach moves along its segment with each sphere at each node; zero where it cannot.
   std::array<std::array<Point, 2>, 2> turns{};
-  double distance = 1.0;    // of the pair [sigma]
+  double distance = 0.0;    // of the pair [sigma]; 0 where the normal does not follow the separation
   double stiffness = 0.0;   // multiplier/distance of the last iteration
   double slack = 0.0;       // the room left, as the interior-point method sees it [sigma]
   double multiplier = 0.0;  // the force along the gap
   double slack_step = 0.0, multiplier_step = 0.0;
 
-  // How much wider moves of both nodes, null for an end of the path, make the gap.
-  double change(const double* before, const double* behind) const {
-    double sum = 0.0;
+  // How moves of both nodes, null for an end of the path, change the separation.
+  Point displacement(const double* before, const double* behind) const {
+    Point sum{};
     for (std::size_t sphere = 0; sphere < 2; ++sphere)
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::size_t q = at[sphere] + axis;
-        sum += slopes[sphere][axis] * ((before ? shares[0] * before[q] : 0.0) + (behind ? shares[1] * behind[q] : 0.0));
+        sum[axis] += scales[sphere] * ((before ? shares[0] * before[q] : 0.0) + (behind ? shares[1] * behind[q] : 0.0));
       }
     return sum;
+  }
+  // How much wider they make the gap.
+  double change(const double* before, const double* behind) const { return dot(displacement(before, behind), normal); }
+  // How they move the separation across the normal.
+  Point across(const double* before, const double* behind) const {
+    Point moved = displacement(before, behind);
+    const double along = dot(moved, normal);
+    for (std::size_t axis = 0; axis < 3; ++axis) moved[axis] -= along * normal[axis];
+    return moved;
   }
   // How far they move the closest approach along its segment.
   double turn(const double* before, const double* behind) const {
@@ -50,11 +60,13 @@ struct GapConstraint {
       }
     return sum;
   }
-  // Adds `force` along the gap to a node of the segment, 0 or 1.
-  void push(std::size_t node, double force, double* out) const {
+  // Adds a force of this size, along a direction or along the gap, to a node of the segment, 0 or 1.
+  void push(std::size_t node, double force, const Point& direction, double* out) const {
     for (std::size_t sphere = 0; sphere < 2; ++sphere)
-      for (std::size_t axis = 0; axis < 3; ++axis) out[at[sphere] + axis] += shares[node] * force * slopes[sphere][axis];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        out[at[sphere] + axis] += shares[node] * force * scales[sphere] * direction[axis];
   }
+  void push(std::size_t node, double force, double* out) const { push(node, force, normal, out); }
   void push_turn(std::size_t node, double force, double* out) const {
     for (std::size_t sphere = 0; sphere < 2; ++sphere)
       for (std::size_t axis = 0; axis < 3; ++axis) out[at[sphere] + axis] += force * turns[node][sphere][axis];

@@ -12,23 +12,27 @@ namespace lanescape {
 namespace {
 
 // [unit of length]
-constexpr double reach = 0.8;              // of gaps that have constraints
+constexpr double reach = 0.5;              // of gaps that have constraints
 constexpr double margin = 1e-8;            // of gaps: more than the square of the last moves
 constexpr double largest_overlap = 5e-10;  // of the path that is handed out
-constexpr double longest_move = 0.36;      // of a sphere: two that meet from beyond the reach do not touch
-// Of products of slacks and multipliers [mean segment squared]. The barrier falls by a factor an iteration, but no faster than the
-// square of the residual.
-constexpr double first_barrier = 1e-4, later_barrier = 1e-6, last_barrier = 1e-9, tight_barrier = 1e-12, barrier_decay = 0.85;
-constexpr double residual_barrier = 1e-6;
+constexpr double longest_move = 0.22;      // of a sphere: two that meet from beyond the reach do not touch
+constexpr double furthest = 0.16;          // that an iteration starts ahead of the path, by sphere
+// Of products of slacks and multipliers [mean segment squared]. While the path relaxes the barrier stays; then it falls by a factor
+// in each iteration that leaves a calm path.
+constexpr double first_barrier = 1e-5, later_barrier = 1e-6, last_barrier = 1e-8, tight_barrier = 1e-12, barrier_decay = 0.7;
+constexpr double calm_at_first = 0.03, calm = 0.07;  // residuals
 // A level, and the path handed out, have come to rest below these residuals; a path below 10^-2 is called stationary.
-constexpr double settled = 7e-3, settled_tight = 9e-3;
-constexpr double warmth = 10.0;                // multipliers of the last iteration fit this barrier, times that aimed at
-constexpr double largest_tension = 5.0;        // of short segments
-constexpr double most_momentum = 0.9;          // at most, of the last move
-constexpr double furthest = 0.16;              // that an iteration starts ahead of the path, by sphere [unit of length]
-constexpr double last_damping = 1.0;           // of the last moves, that of a node held by strings of its own
-constexpr int few_steps = 4, most_steps = 40;  // of the interior-point method, while the barrier falls and after
-constexpr std::uint64_t most_level_iterations = 400, most_tight_iterations = 20;
+constexpr double settled_level = 0.012, settled = 8e-3, settled_tight = 9.5e-3;
+constexpr double warmth = 10.0;          // multipliers of the last iteration fit this barrier, times that aimed at
+constexpr double largest_tension = 5.0;  // of short segments
+constexpr double most_momentum = 0.7;    // at most, of the last move
+constexpr double bulge = 0.5;            // share of that of gaps which is taken into account
+constexpr double later_softness = 0.9;   // of the string along its segments, but while it relaxes
+// Of moves: 1 is that of a node held by strings of its own. While the barrier falls it is this over the square of the number of
+// segments, which slows a wave along the path by the same factor on each level.
+constexpr double later_damping = 150.0, last_damping = 10.0;
+constexpr int few_steps = 2, more_steps = 4, most_steps = 40;  // of the interior-point method: relaxing, falling, at last
+constexpr std::uint64_t most_iterations = 400, most_tight_iterations = 40;
 constexpr double matrix_memory = 4.0 * 1024 * 1024 * 1024;  // [bytes]
 constexpr double contact_gap = 5e-7;  // of pairs that touch [smallest diameter]: half of what the certificate takes for a contact
 
@@ -61,6 +65,7 @@ void HardCurve::allocate(std::size_t nodes) {
   gaps_.begin(nodes - 1);
   tensions_.assign(nodes - 1, 1.0);
   gradient_.assign(nodes - 2, AlignedArray(3 * layout_.size(), 0.0));
+  tangents_.assign(nodes - 1, AlignedArray(3 * layout_.size(), 0.0));
 }
 
 void HardCurve::begin(Polyline nodes) {
@@ -68,45 +73,48 @@ void HardCurve::begin(Polyline nodes) {
   allocate(nodes.size());
   now_ = std::move(nodes);
   from_ = last_ = now_;
-  // Later levels begin where the barrier has fallen to.
-  level_iterations_ = first ? 0 : static_cast<std::uint64_t>(std::log(later_barrier / first_barrier) / std::log(barrier_decay));
-  onward_ = tightening_ = 0;
+  barrier_ = first ? first_barrier : later_barrier;
+  begin_phase(first ? Phase::relaxes : Phase::falls);
 }
 
 bool HardCurve::tighten() {
-  if (tightening_ > 0) return false;
-  tightening_ = 1;
-  level_iterations_ = 0;
-  from_ = now_;
+  if (phase_ >= Phase::settles) return false;
+  begin_phase(Phase::settles);
   return true;
+}
+
+void HardCurve::begin_phase(Phase phase) {
+  phase_ = phase;
+  phase_iterations_ = onward_ = 0;
+  if (phase != Phase::relaxes) from_ = now_;
 }
 
 void HardCurve::set_string() {
   const std::size_t segments = from_.size() - 1;
   mean_ = polyline_length(algebra_, from_) / static_cast<double>(segments);
-  for (std::size_t k = 0; k < segments; ++k)
-    tensions_[k] = std::min(largest_tension, mean_ / algebra_.distance(from_[k], from_[k + 1]));
   const SphereCoordinates& coordinates = gaps_.coordinates();
-  for (std::size_t k = 1; k < segments; ++k)
+  for (std::size_t k = 0; k < segments; ++k) {
+    const double length = algebra_.distance(from_[k], from_[k + 1]);
+    tensions_[k] = std::min(largest_tension, mean_ / length);
     for (std::size_t c = 0; c < coordinates.dimension(); ++c) {
       const std::size_t q = coordinates.slot_coordinate(c);
-      gradient_[k - 1][c] = tensions_[k - 1] * (from_[k][q] - from_[k - 1][q]) - tensions_[k] * (from_[k + 1][q] - from_[k][q]);
+      tangents_[k][c] = (from_[k + 1][q] - from_[k][q]) / length;
+      if (k > 0)
+        gradient_[k - 1][c] = tensions_[k - 1] * (from_[k][q] - from_[k - 1][q]) - tensions_[k] * (from_[k + 1][q] - from_[k][q]);
     }
-}
-
-double HardCurve::barrier() const {
-  if (tightening_ > 0) return tight_barrier;
-  return std::max({last_barrier, residual_barrier * std::min(1.0, residual_ * residual_),
-                   first_barrier * std::pow(barrier_decay, static_cast<double>(level_iterations_))});
+  }
 }
 
 void HardCurve::solve() {
-  const double target = barrier(), unit = mean_ * mean_, size = std::min(1.0, residual_);
-  const bool soft = target > last_barrier;
-  gaps_.follow(from_, warmth * target * unit, soft);
-  const InteriorPoint::Goal goal{target * unit, (soft ? 1e-2 : 1e-6) * options_.length_unit, (soft ? 0.1 : 1e-3) * size * mean_,
-                                 soft ? few_steps : most_steps};
-  interior_->solve({gradient_, tensions_, tightening_ > 0 ? last_damping : 0.0}, gaps_.of_segments(), goal);
+  const bool tight = phase_ == Phase::tightens, relaxes = phase_ == Phase::relaxes;
+  const double unit = mean_ * mean_, target = (tight ? tight_barrier : barrier_) * unit, size = std::min(1.0, residual_);
+  const auto segments = static_cast<double>(tensions_.size());
+  gaps_.follow(from_, warmth * target, !tight);
+  const int steps = tight ? most_steps : relaxes ? few_steps : more_steps;
+  const InteriorPoint::Goal goal{target, (tight ? 1e-10 : 1e-2) * options_.length_unit, (tight ? 1e-3 : 0.1) * size * mean_, steps};
+  const double damping = tight ? last_damping : relaxes ? 0.0 : later_damping / (segments * segments);
+  const double softness = tight || relaxes ? 0.0 : later_softness;
+  interior_->solve({gradient_, tensions_, tangents_, softness, damping, bulge}, gaps_.of_segments(), goal);
 }
 
 // Takes the moves that were found, shortened so that no pair without a constraint can meet. Returns the longest of a sphere.
@@ -138,7 +146,7 @@ void HardCurve::look_ahead(double longest) {
     algebra_.difference(moved, now_[k], last_[k]);
     along += algebra_.dot(taken, moved);
   }
-  const bool on = along >= 0.0 && tightening_ == 0;
+  const bool on = along >= 0.0 && phase_ == Phase::relaxes;
   const auto since = static_cast<double>(onward_);
   const double share =
       on ? std::min(most_momentum * since / (since + 3.0), furthest * options_.length_unit / std::max(longest, 1e-300)) : 0.0;
@@ -161,7 +169,7 @@ void HardCurve::judge() {
     for (std::size_t c = 0; c < rest.size(); ++c) rest[c] = tau[coordinates.slot_coordinate(c)];
     for (std::size_t node = 0; node < 2; ++node)
       for (const GapConstraint& c : segments[node == 1 ? k - 1 : k]) {
-        if (tightening_ == 0 || c.gap + taken_off < contact_) c.push(node, c.multiplier / mean_, rest.data());
+        if (phase_ != Phase::tightens || c.gap + taken_off < contact_) c.push(node, c.multiplier / mean_, rest.data());
       }
     double squared = 0.0;
     for (const double x : rest) squared += x * x;
@@ -176,18 +184,27 @@ Relaxation HardCurve::iterate() {
   const double longest = move();
   judge();
   look_ahead(longest);
-  ++level_iterations_;
-  return state();
+  ++phase_iterations_;
+  return next_phase();
 }
 
-Relaxation HardCurve::state() {
-  if (tightening_ == 0) {
-    if (residual_ < settled && barrier() <= last_barrier) return Relaxation::stationary;
-    return level_iterations_ < most_level_iterations ? Relaxation::continues : Relaxation::stopped;
+Relaxation HardCurve::next_phase() {
+  if (phase_ == Phase::tightens) return tightened();
+  if (residual_ < (phase_ == Phase::relaxes ? calm_at_first : calm)) {
+    if (phase_ == Phase::relaxes) begin_phase(Phase::falls);
+    barrier_ = std::max(last_barrier, barrier_decay * barrier_);
   }
+  const bool at_rest = barrier_ <= last_barrier && residual_ < (phase_ == Phase::settles ? settled : settled_level);
+  const bool ended = at_rest || phase_iterations_ >= most_iterations;
+  if (ended && phase_ == Phase::settles) begin_phase(Phase::tightens);
+  if (!ended || phase_ == Phase::tightens) return Relaxation::continues;
+  return at_rest ? Relaxation::stationary : Relaxation::stopped;
+}
+
+Relaxation HardCurve::tightened() const {
   const bool clear = gaps_.smallest_gap() >= -largest_overlap * options_.length_unit;
   if (clear && residual_ < settled_tight) return Relaxation::stationary;
-  if (level_iterations_ < most_tight_iterations) return Relaxation::continues;
+  if (phase_iterations_ < most_tight_iterations) return Relaxation::continues;
   if (clear) return Relaxation::stopped;
   throw Error(ErrorCode::goal_not_reached,
               fmt::format("spheres of the path still overlap by {:.3g} sigma, and cannot be moved apart", -gaps_.smallest_gap()));
@@ -203,9 +220,12 @@ void HardCurve::exchange(Archive& archive) {
   exchange_nodes(archive, "nodes", now_);
   exchange_nodes(archive, "next_start", from_);
   archive.field("residual", residual_);
-  archive.field("level_iterations", level_iterations_);
+  auto phase = static_cast<std::uint64_t>(phase_);
+  archive.field("phase", phase);
+  phase_ = static_cast<Phase>(phase);
+  archive.field("phase_iterations", phase_iterations_);
+  archive.field("barrier", barrier_);
   archive.field("onward", onward_);
-  archive.field("tightening", tightening_);
   gaps_.exchange(archive);
 }
 

@@ -17,9 +17,12 @@ struct HardCurveOptions {
 // Shortens a path of hard spheres by sequential quadratic programming: an iteration linearises all gaps that its moves could close
 // (GapConstraints) and minimises the energy of the string, half the sum of w_k |R_{k+1} - R_k|^2 with w_k ~ 1/|R_{k+1} - R_k| of
 // the last nodes, as far as they allow (InteriorPoint). Linearised gaps are larger than those of the moved spheres by the square of
-// a move only. The barrier of the gaps falls slowly, so that contacts form and open while they are soft; where only long moves
-// along contacts are left, iterations start from nodes ahead of the last ones (Nesterov's momentum). Between levels nodes may
-// overlap by the square of the last move; tighten() ends that by short moves.
+// a move only.
+//
+// At first the path relaxes: the barrier of the gaps stays high, so that contacts form and open while they are soft, and iterations
+// start from nodes ahead of the last ones (Nesterov's momentum), as only long moves along contacts are left. Once the path is calm
+// the barrier falls, and a damping keeps moves short. Nodes may overlap by the square of the last move; tighten() lets the path of
+// the last level settle, and ends overlaps by moves that hardly count.
 class HardCurve final : public CurveRelaxation {
  public:
   // `path` gives the system, and is copied.
@@ -38,15 +41,19 @@ class HardCurve final : public CurveRelaxation {
   void exchange(Archive& archive) override;
 
  private:
+  // In this order. Levels after the first begin where the barrier falls; the last two are of the last level.
+  enum class Phase : std::uint64_t { relaxes, falls, settles, tightens };
+
   HardSpherePath path() const { return {box_, layout_, radii_, metric_, isa_}; }
   void allocate(std::size_t nodes);
+  void begin_phase(Phase phase);
   void set_string();
-  double barrier() const;
   void solve();
   double move();
   void look_ahead(double longest);
   void judge();
-  Relaxation state();
+  Relaxation next_phase();
+  Relaxation tightened() const;
 
   Box box_;
   ParticleLayout layout_;
@@ -61,10 +68,12 @@ class HardCurve final : public CurveRelaxation {
 
   Polyline now_, from_, last_;  // the path, where the next iteration starts, and the path before
   double residual_ = 1.0;
-  std::uint64_t level_iterations_ = 0, onward_ = 0, tightening_ = 0;  // onward: iterations since one turned back
-  double mean_ = 0.0;                                                 // length of a segment of from_
+  double barrier_ = 0.0;  // [mean segment squared]
+  Phase phase_ = Phase::relaxes;
+  std::uint64_t phase_iterations_ = 0, onward_ = 0;  // onward: iterations since one turned back
+  double mean_ = 0.0;                                // length of a segment of from_
   std::vector<double> tensions_;
-  std::vector<AlignedArray> gradient_;
+  std::vector<AlignedArray> gradient_, tangents_;
 };
 
 }  // namespace lanescape

@@ -10,7 +10,8 @@
 namespace lanescape {
 namespace {
 
-constexpr double least_stiffness = 1e-9;  // of turns that are taken into account
+// Of second derivatives that are taken into account, where strings have about 1: of gaps, and of their barrier.
+constexpr double least_stiffness = 1e-9, least_barrier = 1e-4;
 constexpr double most_of_the_way = 0.99;  // to where a slack or a multiplier vanishes
 
 double norm(const AlignedArray& x) { return std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.0)); }
@@ -51,6 +52,15 @@ double InteriorPoint::complementarity(Segments& segments, const Lengths& lengths
   return count == 0 ? 0.0 : std::accumulate(of_segment_.begin(), of_segment_.end(), 0.0) / static_cast<double>(count);
 }
 
+// What softness takes off the pull of a segment on the node before (side 0) or behind it.
+void InteriorPoint::soften(const String& string, std::size_t segment, std::size_t side, AlignedArray& rest) const {
+  const double *from = node(moves_, segment), *to = node(moves_, segment + 1), *tangent = string.tangents[segment].data();
+  double longer = 0.0;
+  for (std::size_t q = 0; q < dimension_; ++q) longer += tangent[q] * ((to ? to[q] : 0.0) - (from ? from[q] : 0.0));
+  const double pull = (side == 0 ? 1.0 : -1.0) * string.softness * string.tensions[segment] * longer;
+  for (std::size_t q = 0; q < dimension_; ++q) rest[q] += pull * tangent[q];
+}
+
 // The gradient of the string and the forces of the gaps, which balance at the minimum.
 void InteriorPoint::set_rest(const String& string, Segments& segments) {
   for_each_inner([&](std::size_t k) {
@@ -60,12 +70,16 @@ void InteriorPoint::set_rest(const String& string, Segments& segments) {
     for (std::size_t q = 0; q < dimension_; ++q)
       rest[q] = string.gradient[k - 1][q] + (before + behind + string.damping) * here[q] - (last ? before * last[q] : 0.0) -
                 (next ? behind * next[q] : 0.0);
-    for (const std::size_t side : {std::size_t{1}, std::size_t{0}})
+    for (const std::size_t side : {std::size_t{1}, std::size_t{0}}) {
+      if (string.softness > 0.0) soften(string, k - side, side, rest);
       for (const GapConstraint& c : segments[k - side]) {
         c.push(side, -c.multiplier, rest.data());
-        if (c.stiffness > least_stiffness)
-          c.push_turn(side, c.stiffness * c.turn(node(moves_, k - side), node(moves_, k - side + 1)), rest.data());
+        if (c.stiffness <= least_stiffness) continue;
+        const double *start = node(moves_, k - side), *end = node(moves_, k - side + 1);
+        c.push_turn(side, c.stiffness * c.turn(start, end), rest.data());
+        if (bulge_ > 0.0) c.push(side, -bulge_ * c.stiffness, c.across(start, end), rest.data());
       }
+    }
   });
 }
 
@@ -84,19 +98,20 @@ double InteriorPoint::largest_violation(Segments& segments) {
   return *std::max_element(of_segment_.begin(), of_segment_.end());
 }
 
-// The second derivatives of the string, of the gaps' barrier and of closest approaches that move along segments.
+// The second derivatives of the string, of the gaps' barrier and of the gaps themselves.
 void InteriorPoint::assemble(const String& string, const Segments& segments) {
-  const auto products = [](const GapConstraint& c, std::size_t row, std::size_t column, const auto& add) {
-    const double barrier = c.shares[row] * c.shares[column] * c.multiplier / c.slack;
-    const bool turns = c.stiffness > least_stiffness;
-    if (barrier == 0.0 && !turns) return;
+  const auto products = [bulge = bulge_](const GapConstraint& c, std::size_t row, std::size_t column, const auto& add) {
+    const bool curved = c.stiffness > least_stiffness;
+    const double share = c.shares[row] * c.shares[column], round = curved ? bulge * c.stiffness * share : 0.0;
+    const double along = share * c.multiplier / c.slack + round;
+    if (along < least_barrier && !curved) return;
     for (std::size_t s = 0; s < 2; ++s)
       for (std::size_t t = 0; t < 2; ++t)
         for (std::size_t a = 0; a < 3; ++a)
           for (std::size_t b = 0; b < 3; ++b)
             add(c.at[s] + a, c.at[t] + b,
-                barrier * c.slopes[s][a] * c.slopes[t][b] +
-                    (turns ? c.stiffness * c.turns[row][s][a] * c.turns[column][t][b] : 0.0));
+                c.scales[s] * c.scales[t] * (along * c.normal[a] * c.normal[b] - (a == b ? round : 0.0)) +
+                    (curved ? c.stiffness * c.turns[row][s][a] * c.turns[column][t][b] : 0.0));
   };
   matrix_.set_zero();
   for_each_inner([&](std::size_t k) {
@@ -105,6 +120,11 @@ void InteriorPoint::assemble(const String& string, const Segments& segments) {
     const auto to_node = [&](std::size_t row, std::size_t column, double x) {
       if (row <= column) matrix_.add(k - 1, row, column, x);
     };
+    if (string.softness > 0.0) {
+      for (const std::size_t j : {k - 1, k})
+        matrix_.add_square(k - 1, -string.softness * string.tensions[j], string.tangents[j].data());
+      if (k < inner_) matrix_.add_coupling_square(k - 1, string.softness * string.tensions[k], string.tangents[k].data());
+    }
     for (const GapConstraint& c : segments[k - 1]) products(c, 1, 1, to_node);
     for (const GapConstraint& c : segments[k]) products(c, 0, 0, to_node);
     if (k == inner_) return;
@@ -166,13 +186,18 @@ void InteriorPoint::take_step(Segments& segments, const Lengths& lengths) {
 
 void InteriorPoint::solve(const String& string, Segments& segments, const Goal& goal) {
   for (AlignedArray& move : moves_) std::fill(move.begin(), move.end(), 0.0);
+  bulge_ = string.bulge;
   for (int steps = 0; steps < goal.most_steps; ++steps) {
     const double now = complementarity(segments, {0.0, 0.0});
     set_rest(string, segments);
     if (steps > 0 && now <= 2.0 * goal.barrier && largest_rest() <= goal.force && largest_violation(segments) <= goal.violation)
       break;
     assemble(string, segments);
-    if (!matrix_.factor()) return;
+    if (!matrix_.factor()) {
+      if (bulge_ == 0.0) return;
+      bulge_ = bulge_ > 0.2 ? 0.5 * bulge_ : 0.0;
+      continue;
+    }
     const double predicted = complementarity(segments, find_step(segments, 0.0, false));
     const double share = now > 0.0 ? predicted / now : 0.0;
     Lengths lengths = find_step(segments, std::max(share * share * share * now, goal.barrier), true);

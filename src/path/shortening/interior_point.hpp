@@ -17,7 +17,10 @@ class InteriorPoint {
   struct String {
     const std::vector<AlignedArray>& gradient;  // of the energy at y = 0, of each inner node
     const std::vector<double>& tensions;        // of each segment
+    const std::vector<AlignedArray>& tangents;  // unit vectors along the segments
+    double softness;                            // share of its stiffness along the segments that the string lacks
     double damping;                             // half of it times |y|^2 is added to the energy
+    double bulge;                               // share of the gaps' second derivative across that is taken into account
   };
   struct Goal {
     double barrier;    // mean product of slacks and multipliers
@@ -29,7 +32,8 @@ class InteriorPoint {
   // For paths of this many nodes, ends included.
   InteriorPoint(const kernels::KernelTable& kernels, std::size_t nodes, std::size_t dimension, int threads);
 
-  // Moves slacks and multipliers along. Ends early where rounding leaves the matrix not positive definite.
+  // Moves slacks and multipliers along. The bulge is left out from where it makes the energy have no minimum. Ends early where
+  // rounding leaves the matrix not positive definite.
   void solve(const String& string, SegmentGapConstraints& segments, const Goal& goal);
   // y of each inner node.
   const std::vector<AlignedArray>& moves() const { return moves_; }
@@ -47,6 +51,7 @@ class InteriorPoint {
   void for_each_segment(Segments& segments, const Body& body) const;
   double complementarity(Segments& segments, const Lengths& lengths);
   void set_rest(const String& string, Segments& segments);
+  void soften(const String& string, std::size_t segment, std::size_t side, AlignedArray& rest) const;
   double largest_rest() const;
   double largest_violation(Segments& segments);
   void assemble(const String& string, const Segments& segments);
@@ -55,6 +60,7 @@ class InteriorPoint {
 
   std::size_t inner_, dimension_;
   int threads_;
+  double bulge_ = 0.0;
   BlockTridiagonal matrix_;
   std::vector<AlignedArray> moves_, rest_, step_;
   std::vector<double> of_segment_;  // partial results, added in one order

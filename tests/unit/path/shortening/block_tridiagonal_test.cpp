@@ -124,6 +124,25 @@ TEST_P(BlockTridiagonalOnEveryIsa, IgnoresWhatIsBelowTheDiagonal) {
   }
 }
 
+TEST_P(BlockTridiagonalOnEveryIsa, AddsSquaresOfVectorsToWholeBlocks) {
+  for (const auto& [blocks, dimension] : shapes) {
+    Problem problem(blocks, dimension);
+    BlockTridiagonal factor = problem.matrix(GetParam(), 1);
+    const auto d = static_cast<Index>(dimension), last = static_cast<Index>(blocks - 1);
+    const VectorXd x = VectorXd::LinSpaced(d, -1.0, 1.5);
+    factor.add_square(blocks - 1, 0.3, x.data());
+    problem.dense().block(last * d, last * d, d, d) += 0.3 * x * x.transpose();
+    if (blocks > 1) {
+      const double little = -0.1 / x.squaredNorm();
+      factor.add_coupling_square(blocks - 2, little, x.data());
+      problem.dense().block((last - 1) * d, last * d, d, d) += little * x * x.transpose();
+      problem.dense().block(last * d, (last - 1) * d, d, d) += little * x * x.transpose();
+    }
+    ASSERT_TRUE(factor.factor());
+    EXPECT_LT(distance(problem.solved(factor), problem.expected()), 1e-11) << blocks << " blocks of " << dimension;
+  }
+}
+
 TEST_P(BlockTridiagonalOnEveryIsa, FindsOutWhereverItIsNotPositiveDefinite) {
   for (const std::size_t block : {0u, 1u, 2u, 3u, 4u})
     for (const std::size_t row : {0u, 8u, 28u}) {
