@@ -58,7 +58,11 @@ NeighbourList::NeighbourList(const Box& box, const ParticleLayout& layout, const
   cut_into_blocks(layout);
   share_out([](const Block& block) { return block.row_count; });
   writers_ = std::vector<Writer>(parts());
-  for (Writer& writer : writers_) writer.found.resize(counts_.size());
+  for (Writer& writer : writers_) {
+    writer.found.resize(counts_.size());
+    writer.counts.resize(counts_.size());
+    writer.next.resize(counts_.size());
+  }
   prepare(box);
 }
 
@@ -143,11 +147,11 @@ void NeighbourList::rebuild(const AlignedArray& positions) {
   ++rebuilds_;
   frame_.forget();
   points_.sort(positions);
-  std::vector<double> expected;
-  for (std::size_t s = 0; s < species(); ++s) expected.push_back(expected_per_row(s));
-  share_out([&](const Block& block) { return static_cast<std::size_t>(expected[block.species]) * block.row_count; });
+  expected_.resize(species());
+  for (std::size_t s = 0; s < species(); ++s) expected_[s] = expected_per_row(s);
+  share_out([&](const Block& block) { return static_cast<std::size_t>(expected_[block.species]) * block.row_count; });
   double total = 0.0;
-  for (std::size_t s = 0; s < species(); ++s) total += expected[s] * counts_[s];
+  for (std::size_t s = 0; s < species(); ++s) total += expected_[s] * counts_[s];
   for_each_block(threads_, parts(), [&](std::size_t part) {
     Writer& writer = writers_[part];
     writer.end = 0;
@@ -265,21 +269,19 @@ std::uint32_t NeighbourList::put_segment(std::uint32_t place, const std::uint32_
 }
 
 void NeighbourList::fill(Block& block, Writer& writer) {
-  std::vector<std::array<std::uint32_t, kernels::most_group_rows>> counts(species());
-  std::vector<const std::uint32_t*> found(species());
   std::uint32_t* length = lengths_.data() + block.first_segment;
   block.first_neighbour = writer.end;
   for (std::size_t k = block.first_row; k < block.first_row + block.row_count;) {
     const RowGroup group = group_at(block, k);
     for (std::size_t s = 0; s < species(); ++s) {
-      search(group, block.species, s, writer, counts[s].data());
-      found[s] = writer.found[s].data();
+      search(group, block.species, s, writer, writer.counts[s].data());
+      writer.next[s] = writer.found[s].data();
     }
     for (std::size_t row = 0; row < group.count; ++row)
       for (std::size_t s = 0; s < species(); ++s) {
         const std::uint32_t place = static_cast<std::uint32_t>(kernels::point_width) * group.rows[row].self;
-        *length++ = put_segment(place, found[s], counts[s][row], writer);
-        found[s] += counts[s][row];
+        *length++ = put_segment(place, writer.next[s], writer.counts[s][row], writer);
+        writer.next[s] += writer.counts[s][row];
       }
     k += group.count;
   }

@@ -95,7 +95,10 @@ class NeighbourList {
   struct alignas(64) Writer {
     KeptArray<std::uint32_t> neighbours;
     std::size_t end = 0;
-    std::vector<KeptArray<std::uint32_t>> found;  // of each species, row after row of a group
+    // Of each species: what the rows of a group have found, one row after the other; how many each; the row that comes next.
+    std::vector<KeptArray<std::uint32_t>> found;
+    std::vector<std::array<std::uint32_t, kernels::most_group_rows>> counts;
+    std::vector<const std::uint32_t*> next;
     KeptArray<std::uint32_t> near_numbers;
     KeptArray<float> near;  // copies of the points near a group, a coordinate after the other
     std::size_t near_room = 0, found_room = 0;
@@ -142,6 +145,7 @@ class NeighbourList {
   std::vector<Block> blocks_;
   std::vector<std::size_t> first_blocks_;
   std::vector<double> counts_;        // particles of each species
+  std::vector<double> expected_;      // padded neighbours of a row of each species
   std::vector<Writer> writers_;       // one for each part
   KeptArray<std::uint32_t> lengths_;  // of all blocks
   std::size_t segments_ = 0;

@@ -29,7 +29,7 @@ constexpr double coarse_spacing = 0.5, hard_coarse_spacing = 4.0, spacing_partic
 constexpr std::uint64_t iterations_per_checkpoint = 25;
 
 // An iteration on hard spheres takes a time ~ N^3: paths of many are refined less.
-double hard_length_tolerance(double particles) { return std::clamp(5e-5 * particles, 1e-4, 5e-3); }
+double hard_length_tolerance(double particles) { return std::clamp(4e-7 * particles * particles, 3e-6, 5e-3); }
 
 class CurveShorteningWork final : public ShortenWork {
  public:
