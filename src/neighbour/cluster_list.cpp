@@ -14,15 +14,6 @@ constexpr double half_of_a_skin = 0.499;
 // Of the larger skin.
 constexpr double inner_part = 0.28;
 
-std::vector<double> with_skin(std::vector<double> cutoffs, double skin) {
-  for (double& cutoff : cutoffs) cutoff += skin;
-  return cutoffs;
-}
-
-std::size_t first_slot(std::size_t slots, int part, int parts) {
-  return part_begin(slots / kernels::slot_padding, part, parts) * kernels::slot_padding;
-}
-
 }  // namespace
 
 ClusterList::ClusterList(const Box& box, const ParticleLayout& layout, const std::vector<double>& cutoffs, double skin,

@@ -2,12 +2,25 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <vector>
 
 #include "core/aligned_array.hpp"
 #include "core/parallel.hpp"
 #include "kernel_table.hpp"
+#include "views/layout.hpp"
 
 namespace lanescape {
+
+// The reaches of a list with a skin.
+inline std::vector<double> with_skin(std::vector<double> cutoffs, double skin) {
+  for (double& cutoff : cutoffs) cutoff += skin;
+  return cutoffs;
+}
+
+// The first slot of a part for HalfSkin::is_due(), a multiple of the kernels' padding.
+inline std::size_t first_slot(std::size_t slots, int part, int parts) {
+  return part_begin(slots / kernels::slot_padding, part, parts) * kernels::slot_padding;
+}
 
 // Decides when a list with a skin must be rebuilt: once a particle is half the skin away from where it was at the last rebuild.
 // Until then two particles have approached each other by less than the skin, so no pair within the cutoff is missed.

@@ -17,11 +17,6 @@ namespace {
 // How far rows that search together may lie apart along z, in reaches.
 constexpr double group_depth = 0.6;
 
-std::vector<double> with_skin(std::vector<double> cutoffs, double skin) {
-  for (double& cutoff : cutoffs) cutoff += skin;
-  return cutoffs;
-}
-
 double longest(const std::vector<double>& lengths) {
   double longest = 0.0;
   for (const double length : lengths) longest = std::max(longest, length);
@@ -102,15 +97,6 @@ void NeighbourList::update(const AlignedArray& positions) {
   if (!moved_too_far(positions)) return;
   if (!take_out_boxes(positions) || moved_too_far(positions)) rebuild(positions);
 }
-
-namespace {
-
-// The slots of a part are multiples of the kernels' padding.
-std::size_t first_slot(std::size_t slots, int part, int parts) {
-  return part_begin(slots / kernels::slot_padding, part, parts) * kernels::slot_padding;
-}
-
-}  // namespace
 
 bool NeighbourList::moved_too_far(const AlignedArray& positions) {
   std::atomic<bool> too_far = false;
