@@ -22,9 +22,10 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from benchmark_results import ISAS, Arguments, Unusable  # noqa: E402
+from benchmark_results import Arguments, Unusable  # noqa: E402
 from gromacs_runs import Gromacs, measure, melt, potential_energy, write_gro  # noqa: E402
-from ours import Bench, Failed, core_counts, energy_and_virial  # noqa: E402
+from ours import Bench, Failed, energy_and_virial  # noqa: E402
+from peer_options import add_options, check_options, check_timestep  # noqa: E402
 from peer_tables import print_rows  # noqa: E402
 from systems import CUTOFF, LIQUIDS, kept_configuration  # noqa: E402
 
@@ -112,33 +113,14 @@ def say(text):
 def parse(arguments):
     parser = Arguments(prog="gromacs.py", description="GROMACS and bench_lists side by side; the head of this file describes the comparison.")
     parser.add_argument("--gromacs", metavar="PATH", help="the GROMACS to use [gmx on PATH]")
-    parser.add_argument("--bench", type=Path, default=ROOT / "build/release/bench/bench_lists", help="[build/release/bench/bench_lists]")
-    parser.add_argument("--lanescape", type=Path, default=ROOT / "build/release/lanescape", help="[build/release/lanescape]")
-    parser.add_argument("--isa", choices=ISAS, help="instruction set of bench_lists [the widest]")
     parser.add_argument("--sizes", nargs="+", type=int, default=(32000,), metavar="N", help="particles [32000]")
-    parser.add_argument("--threads", nargs="+", type=int, default=core_counts(), metavar="T", help="[1, 2, 4, ... as many as there are cores]")
-    parser.add_argument("--repetitions", type=int, default=3, help="[3]")
     parser.add_argument("--steps", type=int, default=400, help="of one run, of which the second half is timed [400]")
     parser.add_argument("--nstlist", type=int, default=50, help="steps between two searches of GROMACS [50]")
     parser.add_argument("--timestep", type=float, default=0.005, help="that of bench_lists is 0.005 [0.005]")
-    parser.add_argument("--seed", type=int, default=1, help="[1]")
-    parser.add_argument("--folder", type=Path, default=ROOT / "build/peers", help="for configurations, which later runs use again, and logs [build/peers]")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write the results there")
+    add_options(parser, repetitions=3)
     options = parser.parse_args(arguments)
-    for name, least in (("sizes", 500), ("threads", 1)):
-        for number in getattr(options, name):
-            if number < least:
-                parser.error(f"--{name} {number}: must be at least {least}")
-    for name in ("repetitions", "steps", "nstlist", "seed"):
-        if getattr(options, name) < 1:
-            parser.error(f"--{name} {getattr(options, name)}: must be at least 1")
-    if not 0.0 < options.timestep <= 0.02:
-        parser.error(f"--timestep {options.timestep}: must be above 0 and at most 0.02")
-    for name in ("gromacs", "bench", "lanescape"):
-        if getattr(options, name) and not shutil.which(getattr(options, name)):
-            parser.error(f"--{name} {getattr(options, name)}: no such program")
-    if options.json and not options.json.absolute().parent.is_dir():
-        parser.error(f"--json {options.json}: no such folder")
+    check_options(parser, options, 500, ("steps", "nstlist"), ("gromacs",))
+    check_timestep(parser, options)
     return options
 
 

@@ -30,9 +30,10 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from benchmark_results import ISAS, Arguments, Unusable  # noqa: E402
+from benchmark_results import Arguments, Unusable  # noqa: E402
 from lammps_runs import SKIN, STYLES, Lammps, Peer, measure, melt, newest_on_path, potential_energy, write_data  # noqa: E402
-from ours import CASES, Bench, Failed, core_counts, energy_and_virial  # noqa: E402
+from ours import CASES, Bench, Failed, energy_and_virial  # noqa: E402
+from peer_options import add_options, check_options, check_timestep, check_work  # noqa: E402
 from peer_tables import print_rows  # noqa: E402
 from systems import CUTOFF, LIQUIDS, kept_configuration, lattice  # noqa: E402
 
@@ -169,41 +170,18 @@ def parse(arguments):
     parser = Arguments(prog="lammps.py", description="LAMMPS and bench_lists side by side; the head of this file describes the comparison.")
     parser.add_argument("--lammps", metavar="PATH", help="the LAMMPS to use [the newest of lmp, lmp_mpi and lammps on PATH]")
     parser.add_argument("--mpirun", metavar="PATH", help="the mpirun of LAMMPS's MPI [mpirun on PATH]")
-    parser.add_argument("--bench", type=Path, default=ROOT / "build/release/bench/bench_lists", help="[build/release/bench/bench_lists]")
-    parser.add_argument("--lanescape", type=Path, default=ROOT / "build/release/lanescape", help="[build/release/lanescape]")
-    parser.add_argument("--isa", choices=ISAS, help="instruction set of bench_lists [the widest]")
     parser.add_argument("--models", nargs="+", choices=tuple(LIQUIDS), default=tuple(LIQUIDS), help="[both]")
     parser.add_argument("--sizes", nargs="+", type=int, default=(256, 4000, 32000, 256000), metavar="N",
                         help="particles [256 4000 32000 256000]")
     parser.add_argument("--step-size", type=int, default=32000, metavar="N", help="the size that whole steps are timed for [32000]")
-    parser.add_argument("--threads", nargs="+", type=int, default=core_counts(), metavar="T", help="threads, or processes of LAMMPS [1, 2, 4, ...]")
-    parser.add_argument("--repetitions", type=int, default=5, help="[5]")
     parser.add_argument("--work", type=float, default=2e7, help="particles times steps of one timing of forces [2e7]")
     parser.add_argument("--steps", type=int, default=300, help="of one timing of whole steps [300]")
     parser.add_argument("--timestep", type=float, default=0.005, help="of whole steps [0.005]")
-    parser.add_argument("--seed", type=int, default=1, help="[1]")
-    parser.add_argument("--folder", type=Path, default=ROOT / "build/peers", help="for configurations, which later runs use again, and logs [build/peers]")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write the results there")
+    add_options(parser, repetitions=5, threads="threads, or processes of LAMMPS [1, 2, 4, ...]")
     options = parser.parse_args(arguments)
-    for name, least in (("sizes", 256), ("threads", 1)):  # the box of 256 particles is wider than twice cutoff and skin
-        for number in getattr(options, name):
-            if number < least:
-                parser.error(f"--{name} {number}: must be at least {least}")
-    for name in ("repetitions", "steps", "seed"):
-        if getattr(options, name) < 1:
-            parser.error(f"--{name} {getattr(options, name)}: must be at least 1")
-    if not 1.0 <= options.work <= 1e12:
-        parser.error(f"--work {options.work}: must be from 1 to 1e12")
-    if not 0.0 < options.timestep <= 0.02:
-        parser.error(f"--timestep {options.timestep}: must be above 0 and at most 0.02")
-    for name in ("lammps", "mpirun"):
-        if getattr(options, name) and not shutil.which(getattr(options, name)):
-            parser.error(f"--{name} {getattr(options, name)}: no such program")
-    for name in ("bench", "lanescape"):
-        if not shutil.which(getattr(options, name)):
-            parser.error(f"--{name} {getattr(options, name)}: no such program; is it built?")
-    if options.json and not options.json.absolute().parent.is_dir():
-        parser.error(f"--json {options.json}: no such folder")
+    check_options(parser, options, 256, ("steps",), ("lammps", "mpirun"))  # the box of 256 is wider than twice cutoff and skin
+    check_work(parser, options)
+    check_timestep(parser, options)
     return options
 
 

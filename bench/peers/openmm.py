@@ -16,7 +16,6 @@ Exit status: 0; 1 if energies disagree, a program fails (the last line on stderr
 import datetime
 import json
 import os
-import shutil
 import statistics
 import sys
 import time
@@ -33,8 +32,9 @@ sys.path[:0] = [str(FOLDER), str(ROOT / "tools")]
 
 import numpy as np  # noqa: E402
 
-from benchmark_results import ISAS, Arguments  # noqa: E402
-from ours import Bench, Failed, core_counts, energy_and_virial  # noqa: E402
+from benchmark_results import Arguments  # noqa: E402
+from ours import Bench, Failed, energy_and_virial  # noqa: E402
+from peer_options import add_options, check_options, check_work  # noqa: E402
 from peer_tables import print_rows  # noqa: E402
 from systems import CUTOFF, LIQUIDS, Configuration, check_melted, kept_configuration, lattice, wrapped  # noqa: E402
 
@@ -155,31 +155,12 @@ def say(text):
 
 def parse(arguments):
     parser = Arguments(prog="openmm.py", description="OpenMM's CPU platform and bench_lists side by side; the head of this file describes it.")
-    parser.add_argument("--bench", type=Path, default=ROOT / "build/release/bench/bench_lists", help="[build/release/bench/bench_lists]")
-    parser.add_argument("--lanescape", type=Path, default=ROOT / "build/release/lanescape", help="[build/release/lanescape]")
-    parser.add_argument("--isa", choices=ISAS, help="instruction set of bench_lists [the widest]")
     parser.add_argument("--sizes", nargs="+", type=int, default=(32000,), metavar="N", help="particles [32000]")
-    parser.add_argument("--threads", nargs="+", type=int, default=core_counts(), metavar="T", help="[1, 2, 4, ... as many as there are cores]")
-    parser.add_argument("--repetitions", type=int, default=3, help="[3]")
     parser.add_argument("--work", type=float, default=6.4e6, help="particles times steps of one timing [6.4e6]")
-    parser.add_argument("--seed", type=int, default=1, help="[1]")
-    parser.add_argument("--folder", type=Path, default=ROOT / "build/peers", help="for configurations, which later runs use again [build/peers]")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write the results there")
+    add_options(parser, repetitions=3)
     options = parser.parse_args(arguments)
-    for name, least in (("sizes", 256), ("threads", 1)):
-        for number in getattr(options, name):
-            if number < least:
-                parser.error(f"--{name} {number}: must be at least {least}")
-    for name in ("repetitions", "seed"):
-        if getattr(options, name) < 1:
-            parser.error(f"--{name} {getattr(options, name)}: must be at least 1")
-    if not 1.0 <= options.work <= 1e12:
-        parser.error(f"--work {options.work}: must be from 1 to 1e12")
-    for name in ("bench", "lanescape"):
-        if not shutil.which(getattr(options, name)):
-            parser.error(f"--{name} {getattr(options, name)}: no such program; is it built?")
-    if options.json and not options.json.absolute().parent.is_dir():
-        parser.error(f"--json {options.json}: no such folder")
+    check_options(parser, options, 256)
+    check_work(parser, options)
     return options
 
 
