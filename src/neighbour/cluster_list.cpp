@@ -1,7 +1,7 @@
 #include "neighbour/cluster_list.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <atomic>
 
 namespace lanescape {
 namespace {
@@ -9,8 +9,6 @@ namespace {
 using kernels::cluster_size;
 using kernels::cluster_width;
 
-// Displacements are rounded, and so are the reaches of lists.
-constexpr double half_of_a_skin = 0.499;
 // Of the larger skin.
 constexpr double inner_part = 0.28;
 
@@ -18,32 +16,28 @@ constexpr double inner_part = 0.28;
 
 ClusterList::ClusterList(const Box& box, const ParticleLayout& layout, const std::vector<double>& cutoffs, double skin,
                          const kernels::KernelTable& table, int threads)
-    : table_(&table),
-      slots_(layout.slots()),
+    : slots_(layout.slots()),
       threads_(threads),
-      allowed_(half_of_a_skin * inner_part * skin),
+      pruned_(inner_part * skin, table),
       frame_(box, skin, *std::max_element(cutoffs.begin(), cutoffs.end()), table),
       columns_(box, layout, with_skin(cutoffs, skin), threads),
-      blocks_(cutoffs, skin, inner_part * skin, table) {}
+      blocks_(cutoffs, skin, inner_part * skin, table),
+      sums_(static_cast<std::size_t>(threads)) {}
 
-double ClusterList::displacement_squared(const AlignedArray& positions) {
-  std::vector<double> longest(static_cast<std::size_t>(threads_));
+bool ClusterList::must_prune(const AlignedArray& positions) {
+  std::atomic<bool> must = false;
   for_each_part(threads_, [&](int part) {
-    longest[static_cast<std::size_t>(part)] =
-        pruned_at_.empty()
-            ? std::numeric_limits<double>::infinity()
-            : table_->largest_displacement_squared(pruned_at_.data(), positions.data(), slots_, first_slot(slots_, part, threads_),
-                                                   first_slot(slots_, part + 1, threads_));
+    if (pruned_.is_due(positions, first_slot(slots_, part, threads_), first_slot(slots_, part + 1, threads_))) must = true;
     columns_.refresh(positions, part);
   });
-  return *std::max_element(longest.begin(), longest.end());
+  return must;
 }
 
 bool ClusterList::is_due(const AlignedArray& positions) const { return frame_.is_due(positions, 0, slots_); }
 
 void ClusterList::update(const AlignedArray& positions) {
   if (frame_.is_empty()) return rebuild(positions);
-  if (displacement_squared(positions) <= allowed_ * allowed_) return;
+  if (!must_prune(positions)) return;
   if (is_due(positions)) {
     if (!frame_.any_boxes(positions)) return rebuild(positions);
     frame_.count_boxes(positions);
@@ -51,7 +45,7 @@ void ClusterList::update(const AlignedArray& positions) {
     for_each_part(threads_, [&](int part) { columns_.refresh(positions, part); });
     if (is_due(positions)) return rebuild(positions);
   }
-  pruned_at_ = positions;
+  pruned_.rebuilt_at(positions, threads_);
   prune_ = true;
 }
 
@@ -62,7 +56,7 @@ void ClusterList::rebuild(const AlignedArray& positions) {
   for_each_part(threads_, [&](int part) { columns_.refresh(positions, part); });
   blocks_.make(columns_, threads_);
   frame_.made_at(positions, threads_);
-  pruned_at_ = positions;
+  pruned_.rebuilt_at(positions, threads_);
   prune_ = true;
 }
 
@@ -71,12 +65,12 @@ void ClusterList::set_box(const Box& box) {
   const bool lasts = frame_.stretch_to(box);
   columns_.set_box(box);
   if (lasts) columns_.shift_back(frame_.boxes());
-  pruned_at_.clear();
+  pruned_.forget();
 }
 
-void ClusterList::put_gradients(double unit, AlignedArray& gradient) const {
+void ClusterList::put_gradients(double unit, AlignedArray& gradient) {
   for_each_part(threads_, [&](int part) {
-    std::vector<double> sums;
+    std::vector<double>& sums = sums_[static_cast<std::size_t>(part)];
     const std::size_t columns = columns_.columns();
     for (std::size_t column = part_begin(columns, part, threads_); column < part_begin(columns, part + 1, threads_); ++column) {
       const std::size_t first = columns_.first_cluster(column), end = columns_.first_cluster(column + 1);
@@ -93,23 +87,14 @@ void ClusterList::put_gradients(double unit, AlignedArray& gradient) const {
 }
 
 std::size_t ClusterList::memory() const {
-  return columns_.memory() + blocks_.memory() + frame_.memory() + pruned_at_.capacity() * sizeof(double);
+  return columns_.memory() + blocks_.memory() + frame_.memory() + pruned_.reference().capacity() * sizeof(double);
 }
 
 void ClusterList::exchange(Archive& archive) {
-  AlignedArray state = frame_.state();
-  archive.field("list_made_at", state);
-  if (!archive.reading()) return;
-  const Box present = frame_.box();
-  const ListFrame::Past past = frame_.past(state, 3 * slots_);
-  frame_.forget();
-  if (past.made_at.empty()) return;
-  set_box(past.box);
-  rebuild(past.made_at);
-  frame_.take_boxes(past.boxes);
-  if (!past.boxes.empty()) columns_.shift_back(past.boxes);
-  set_box(present);
-  pruned_at_.clear();
+  frame_.exchange(
+      archive, 3 * slots_, [&](const Box& box) { set_box(box); }, [&](const AlignedArray& positions) { rebuild(positions); },
+      [&](const AlignedArray& boxes) { columns_.shift_back(boxes); });
+  if (archive.reading()) pruned_.forget();
 }
 
 }  // namespace lanescape

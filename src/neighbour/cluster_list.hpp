@@ -37,7 +37,7 @@ class ClusterList {
     prune_ = false;
   }
   // Writes `unit` times the gradients that were collected to every slot that has a particle.
-  void put_gradients(double unit, AlignedArray& gradient) const;
+  void put_gradients(double unit, AlignedArray& gradient);
 
   // As an evaluation at these positions does.
   void update(const AlignedArray& positions);
@@ -55,18 +55,17 @@ class ClusterList {
 
  private:
   void rebuild(const AlignedArray& positions);
-  // The square of the longest displacement since lists were pruned; brings clusters up to date along the way.
-  double displacement_squared(const AlignedArray& positions);
+  // Whether a particle has moved too far since lists were pruned; brings clusters up to date along the way.
+  bool must_prune(const AlignedArray& positions);
   bool is_due(const AlignedArray& positions) const;
 
-  const kernels::KernelTable* table_;
   std::size_t slots_;
   int threads_;
-  double allowed_;  // displacement before lists are pruned again
+  HalfSkin pruned_;  // its reference: where lists were pruned
   ListFrame frame_;
   ClusterColumns columns_;
   ClusterBlocks blocks_;
-  AlignedArray pruned_at_;  // empty: nowhere yet
+  std::vector<std::vector<double>> sums_;  // scratch of each thread
   bool prune_ = false;
   std::uint64_t rebuilds_ = 0;
 };

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "core/aligned_array.hpp"
+#include "core/archive.hpp"
 #include "core/box.hpp"
 #include "kernel_table.hpp"
 #include "neighbour/half_skin.hpp"
@@ -38,7 +39,28 @@ class ListFrame {
   // Takes another box; false if the list does not outlast it. The list is then forgotten.
   bool stretch_to(const Box& box);
 
-  // Everything that the list and its future depend on: made at, or made at, box then and boxes since.
+  // Archives all that the list and its future depend on. Reading makes the list again where it was made, with the list's own
+  // set_box(box), rebuild(positions) and shift_back(boxes since), in this order, and returns to the present box.
+  template <class SetBox, class Rebuild, class ShiftBack>
+  void exchange(Archive& archive, std::size_t dimension, SetBox set_box, Rebuild rebuild, ShiftBack shift_back) {
+    AlignedArray state = this->state();
+    archive.field("list_made_at", state);
+    if (!archive.reading()) return;
+    const Box present = box_;
+    const Past past = this->past(state, dimension);
+    forget();
+    if (past.made_at.empty()) return;
+    set_box(past.box);
+    rebuild(past.made_at);
+    take_boxes(past.boxes);
+    if (!past.boxes.empty()) shift_back(past.boxes);
+    set_box(present);
+  }
+
+  std::size_t memory() const;  // [bytes]
+
+ private:
+  // Made at, or made at, box then and boxes since.
   AlignedArray state() const;
   struct Past {
     AlignedArray made_at;
@@ -47,10 +69,6 @@ class ListFrame {
   };
   Past past(const AlignedArray& state, std::size_t dimension) const;
   void take_boxes(const AlignedArray& boxes);  // those of a past
-
-  std::size_t memory() const;  // [bytes]
-
- private:
   void keep_made_at();
   double carried(std::size_t k) const;
   void carry_all();

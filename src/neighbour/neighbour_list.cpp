@@ -309,18 +309,9 @@ std::size_t NeighbourList::memory() const {
 }
 
 void NeighbourList::exchange(Archive& archive) {
-  AlignedArray state = frame_.state();
-  archive.field("list_made_at", state);
-  if (!archive.reading()) return;
-  const Box present = frame_.box();
-  const ListFrame::Past past = frame_.past(state, 3 * slots_);
-  frame_.forget();
-  if (past.made_at.empty()) return;
-  set_box(past.box);
-  rebuild(past.made_at);
-  frame_.take_boxes(past.boxes);
-  if (!past.boxes.empty()) for_each_part(threads_, [&](int part) { points_.shift_back({}, past.boxes, part); });
-  set_box(present);
+  frame_.exchange(
+      archive, 3 * slots_, [&](const Box& box) { set_box(box); }, [&](const AlignedArray& positions) { rebuild(positions); },
+      [&](const AlignedArray& boxes) { for_each_part(threads_, [&](int part) { points_.shift_back({}, boxes, part); }); });
 }
 
 }  // namespace lanescape

@@ -66,7 +66,7 @@ kernels::PairOutput ClusterSums::total() const {
   return total;
 }
 
-void ClusterSums::put_gradients(AlignedArray& gradient) const {
+void ClusterSums::put_gradients(AlignedArray& gradient) {
   list_.put_gradients(list_.fixed_unit(), gradient);
   clear_slots(padding_, gradient);
 }

@@ -42,7 +42,7 @@ class ClusterSums final : public PairSums {
   template <class Evaluate>
   void for_each_block(const AlignedArray& positions, Evaluate evaluate);
   kernels::PairOutput total() const;
-  void put_gradients(AlignedArray& gradient) const;
+  void put_gradients(AlignedArray& gradient);
 
   PairModel model_;
   Box box_;

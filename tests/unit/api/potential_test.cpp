@@ -204,25 +204,28 @@ TEST(Potential, OfManyParticlesTakesThemInAnyOrder) {
 TEST(Potential, AllocatesNothingAfterTheFirstCallOfAKind) {
   for (const char* images : {"all", "minimum"})
     for (const std::size_t particles : {108U, 1000U, 6000U})
-      for (const int threads : {1, 2}) {
-        const Model model = Model::named("kob-andersen", {.images = images});
-        const Start start = make_start(model, particles, 1.2);
-        Potential potential(model, start.species, start.box, {.threads = threads});
-        std::vector<double> forces(3 * particles), energies(particles), moved = start.positions;
-        const auto call = [&] {
-          potential.energy(moved);
-          potential.evaluate(moved, {.energies = energies});
-          potential.evaluate(moved, {.forces = Vectors<double>::interleaved(forces), .stress = true});
-          for (const double stretch : {1.001, 1.0}) {
-            potential.set_box({stretch * start.box[0], stretch * start.box[1], stretch * start.box[2]});
-            potential.energy_and_forces(moved, forces);
-          }
-        };
-        call();
-        call();
-        const std::size_t before = testing::allocations();
-        for (int k = 0; k < 10; ++k) call();
-        EXPECT_EQ(testing::allocations(), before) << images << ' ' << particles << ' ' << threads;
+      for (const char* precision : {"double", "mixed"}) {
+        if (particles < 1000 && precision == std::string("mixed")) continue;
+        for (const int threads : {1, 2}) {
+          const Model model = Model::named("kob-andersen", {.images = images});
+          const Start start = make_start(model, particles, 1.2);
+          Potential potential(model, start.species, start.box, {.threads = threads, .precision = precision});
+          std::vector<double> forces(3 * particles), energies(particles), moved = start.positions;
+          const auto call = [&] {
+            potential.energy(moved);
+            potential.evaluate(moved, {.energies = energies});
+            potential.evaluate(moved, {.forces = Vectors<double>::interleaved(forces), .stress = true});
+            for (const double stretch : {1.001, 1.0}) {
+              potential.set_box({stretch * start.box[0], stretch * start.box[1], stretch * start.box[2]});
+              potential.energy_and_forces(moved, forces);
+            }
+          };
+          call();
+          call();
+          const std::size_t before = testing::allocations();
+          for (int k = 0; k < 10; ++k) call();
+          EXPECT_EQ(testing::allocations(), before) << images << ' ' << particles << ' ' << precision << ' ' << threads;
+        }
       }
 }
 
@@ -255,7 +258,9 @@ TEST(Potential, RefusesWhatItDoesNotKnow) {
   EXPECT_EQ(
       refusal([] { Potential(Model::named("hard-sphere"), std::vector<int>{0}, cube); }),
       "model hard-sphere is made of hard spheres: a Potential needs a model of a pair potential; HardSpheres is for hard spheres");
-  EXPECT_EQ(refusal([] { Potential(Model::named("polydisperse"), std::vector<int>{0, 0}, cube, {.diameters = {1.0}}); }),
+  EXPECT_EQ(refusal([] {
+              Potential(Model::named("polydisperse"), std::vector<int>{0, 0}, cube, {.diameters = {1.0}});
+            }),
             "1 diameters were given for 2 particles: one for each is needed");
 }
 
