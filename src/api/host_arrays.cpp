@@ -9,9 +9,6 @@
 #include "core/float_environment.hpp"
 
 namespace lanescape {
-namespace {
-
-// Slow, for its message.
 void name_what_is_not_finite(const Vectors<const double>& host) {
   std::vector<double> interleaved;
   for (std::size_t i = 0; i < host.count; ++i) {
@@ -20,8 +17,6 @@ void name_what_is_not_finite(const Vectors<const double>& host) {
   }
   check_finite_particles(interleaved);
 }
-
-}  // namespace
 
 void check_positions(std::size_t given, std::size_t particles) {
   if (given != 3 * particles)
@@ -36,6 +31,12 @@ void check_positions(const Vectors<const double>& given, std::size_t particles) 
 
 void check_room(const char* what, std::size_t given, std::size_t needed) {
   if (given != needed) throw_bad_input(fmt::format("room for {} {} was given: {} are needed", given, what, needed));
+}
+
+void check_forces(const Vectors<double>& given, std::size_t particles) {
+  check_room("force components", 3 * given.count, 3 * particles);
+  if (particles != 0 && (given.y == nullptr || given.z == nullptr))
+    throw_bad_input("forces have a null pointer: arrays of x, y and z are needed");
 }
 
 const AlignedArray& HostArrays::positions(const Vectors<const double>& host) {
@@ -63,11 +64,7 @@ AlignedArray& HostArrays::energies() {
 
 void HostArrays::check_room_of(const Outputs& outputs) const {
   if (!outputs.energies.empty()) check_room("energies", outputs.energies.size(), layout_.size());
-  const Vectors<double>& forces = outputs.forces;
-  if (forces.x == nullptr) return;
-  check_room("force components", 3 * forces.count, 3 * layout_.size());
-  if (layout_.size() != 0 && (forces.y == nullptr || forces.z == nullptr))
-    throw_bad_input("forces have a null pointer: arrays of x, y and z are needed");
+  if (outputs.forces.x != nullptr) check_forces(outputs.forces, layout_.size());
 }
 
 void HostArrays::write_energies(std::span<double> host) const {

@@ -14,6 +14,9 @@ namespace lanescape {
 void check_positions(std::size_t given, std::size_t particles);
 void check_positions(const Vectors<const double>& given, std::size_t particles);  // null pointers too
 void check_room(const char* what, std::size_t given, std::size_t needed);
+void check_forces(const Vectors<double>& given, std::size_t particles);
+// Throws Error(bad_input) naming the coordinate; slow, for this message.
+void name_what_is_not_finite(const Vectors<const double>& host);
 
 // Arrays of a host, in the user's order, and the library's, in the layout's. Keeps the memory of both directions.
 class HostArrays {

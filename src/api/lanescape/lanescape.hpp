@@ -13,6 +13,7 @@
 #include <lanescape/hard_spheres.hpp>
 #include <lanescape/insertion.hpp>
 #include <lanescape/landscape.hpp>
+#include <lanescape/listed_potential.hpp>
 #include <lanescape/model.hpp>
 #include <lanescape/neighbours.hpp>
 #include <lanescape/path.hpp>
