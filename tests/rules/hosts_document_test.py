@@ -5,7 +5,7 @@ import re
 import unittest
 
 DOCS = pathlib.Path(__file__).resolve().parents[2] / "docs"
-FILES = {"c": "*.c", "cmake": "CMakeLists.txt", "cpp": "*.cpp", "fortran": "*.f90", "sh": "*.sh"}
+FILES = {"c": "*.c", "cmake": "CMakeLists.txt", "cpp": "*.cpp", "fortran": "*.f90", "lammps": "in.*", "sh": "*.sh"}
 
 
 class HostsDocument(unittest.TestCase):
