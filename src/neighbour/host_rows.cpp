@@ -33,7 +33,9 @@ void check_row(const HostLists& lists, int point) {
         fmt::format("neighbour {} of point {} is not allowed: there are {} points, numbered from 0", largest, point, points));
 }
 
-void check_rows(const HostLists& lists, int threads) {
+}  // namespace
+
+void check_lists(const HostLists& lists, int threads) {
   constexpr std::size_t part = 256, most_points = std::size_t{1} << 30;  // whose offsets fit 32 bits
   if (lists.species.size() > most_points)
     throw_bad_input(fmt::format("{} points are not allowed: at most {} are", lists.species.size(), most_points));
@@ -43,8 +45,6 @@ void check_rows(const HostLists& lists, int threads) {
     for (const int point : lists.rows.subspan(k * part, std::min(part, lists.rows.size() - k * part))) check_row(lists, point);
   });
 }
-
-}  // namespace
 
 kernels::NeighbourRows HostRows::rows_of(std::size_t block, const double* points) const {
   const Block& b = blocks_[block];
@@ -60,7 +60,6 @@ kernels::NeighbourRows HostRows::rows_of(std::size_t block, const double* points
 
 void HostRows::assign(const HostLists& lists, int threads) {
   blocks_.clear();
-  check_rows(lists, threads);
   find_keys(lists);
   if (ends_ == Ends::both) return assign_both_ends(lists);
   cut_into_blocks(lists, lists.rows, [&](int point) {
@@ -126,13 +125,13 @@ void HostRows::fill(const HostLists& lists, const Block& block) {
   }
 }
 
-template <class Visit>
-void HostRows::for_each_pair(const HostLists& lists, Visit visit) const {
+void HostRows::find_pairs(const HostLists& lists) {
+  pairs_.clear();
   for (const int i : lists.rows) {
     if (lists.species[static_cast<std::size_t>(i)] < 0) continue;
     for (const int j : list_of(lists, i)) {
-      const std::size_t point = static_cast<std::uint32_t>(j) & lists.mask;
-      if (keys_[point] != none) visit(static_cast<std::size_t>(i), point);
+      const std::uint32_t point = static_cast<std::uint32_t>(j) & lists.mask;
+      if (keys_[point] != none) pairs_.push_back({static_cast<std::uint32_t>(i), point});
     }
   }
 }
@@ -142,11 +141,12 @@ void HostRows::assign_both_ends(const HostLists& lists) {
   const auto segment = [&](std::size_t of, std::size_t with) {
     return of * species_ + static_cast<std::size_t>(lists.species[with]);
   };
+  find_pairs(lists);
   counts_.assign(points * species_, 0);
-  for_each_pair(lists, [&](std::size_t i, std::size_t j) {
+  for (const auto& [i, j] : pairs_) {
     ++counts_[segment(i, j)];
     ++counts_[segment(j, i)];
-  });
+  }
   const auto room = [&](int point) {
     std::size_t room = 0;
     for (std::size_t s = 0; s < species_; ++s) room += padded(counts_[static_cast<std::size_t>(point) * species_ + s]);
@@ -166,10 +166,10 @@ void HostRows::assign_both_ends(const HostLists& lists) {
       std::fill_n(out + count, padded(count) - count, row);
       out += padded(count);
     }
-  for_each_pair(lists, [&](std::size_t i, std::size_t j) {
-    *next_[segment(i, j)]++ = offset_of(static_cast<std::uint32_t>(j));
-    *next_[segment(j, i)]++ = offset_of(static_cast<std::uint32_t>(i));
-  });
+  for (const auto& [i, j] : pairs_) {
+    *next_[segment(i, j)]++ = offset_of(j);
+    *next_[segment(j, i)]++ = offset_of(i);
+  }
 }
 
 }  // namespace lanescape

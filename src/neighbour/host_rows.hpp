@@ -19,6 +19,9 @@ struct HostLists {
   std::uint32_t mask = ~0U;  // the bits of a neighbour that number a point
 };
 
+// Throws Error(bad_input), naming the row, for points that do not exist.
+void check_lists(const HostLists& lists, int threads);
+
 // Lists of a host as kernels take them: rows by species, in blocks that threads share; their neighbours by species, in whole
 // vectors.
 class HostRows {
@@ -30,7 +33,7 @@ class HostRows {
 
   HostRows(std::size_t species, Ends ends, Partners partners) : species_(species), ends_(ends), partners_(partners) {}
 
-  // Throws Error(bad_input), naming the row, for points that do not exist; the rows before are then lost.
+  // Lists that check_lists() has seen.
   void assign(const HostLists& lists, int threads);
 
   std::size_t block_count() const { return blocks_.size(); }
@@ -53,9 +56,8 @@ class HostRows {
   void cut_into_blocks(const HostLists& lists, std::span<const int> points, Needed needed);
   void fill(const HostLists& lists, const Block& block);
   void assign_both_ends(const HostLists& lists);
-  // visit(i, j) for each listed pair that counts.
-  template <class Visit>
-  void for_each_pair(const HostLists& lists, Visit visit) const;
+  // Those that count.
+  void find_pairs(const HostLists& lists);
 
   std::size_t species_;
   Ends ends_;
@@ -65,7 +67,12 @@ class HostRows {
   std::vector<std::uint32_t> rows_;
   std::vector<Block> blocks_;
   KeptArray<std::uint32_t> neighbours_, lengths_;
-  std::vector<std::uint32_t> counts_;  // point x species: scratch of both ends
+  // Scratch of both ends: pairs; how many of each species each point has, and where the next one goes; points that have any.
+  struct Pair {
+    std::uint32_t first, second;
+  };
+  std::vector<Pair> pairs_;
+  std::vector<std::uint32_t> counts_;
   std::vector<std::uint32_t*> next_;
   std::vector<int> points_;
 };

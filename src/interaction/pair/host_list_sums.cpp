@@ -44,6 +44,7 @@ HostListSums::HostListSums(const PairModel& model, const kernels::KernelTable& t
 
 void HostListSums::set_lists(const HostLists& lists) {
   size_ = 0;
+  check_lists(lists, threads_);
   for (Part& part : parts_) part.rows.assign(lists, threads_);
   size_ = lists.species.size();
   points_.assign(kernels::point_width * size_, 0.0);
