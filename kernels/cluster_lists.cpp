@@ -2,6 +2,13 @@
 #include "loops/clusters.hpp"
 
 // What is done with clusters beside the evaluation of their pairs.
+// No round of the loop that follows writes what another reads.
+#ifdef __clang__
+#define LANESCAPE_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define LANESCAPE_INDEPENDENT _Pragma("GCC ivdep")
+#endif
+
 namespace lanescape::kernels::LANESCAPE_ISA {
 namespace {
 
@@ -50,7 +57,7 @@ void load_clusters(const std::int32_t* from, const std::int32_t* shift, std::siz
                    float* gradients) noexcept {
   for (std::size_t k = 0; k < count; ++k)
     for (std::size_t axis = 0; axis < 3; ++axis, from += cluster_size, points += cluster_size, gradients += cluster_size)
-#pragma GCC ivdep
+LANESCAPE_INDEPENDENT
       for (std::size_t place = 0; place < cluster_size; ++place) {
         // Unsigned arithmetic wraps around; what is signed must not.
         points[place] =
@@ -60,7 +67,7 @@ void load_clusters(const std::int32_t* from, const std::int32_t* shift, std::siz
 }
 
 void add_clusters(const float* from, std::size_t count, double* sums) noexcept {
-#pragma GCC ivdep
+LANESCAPE_INDEPENDENT
   for (std::size_t k = 0; k < cluster_width * count; ++k) sums[k] += static_cast<double>(from[k]);
 }
 

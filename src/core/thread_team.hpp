@@ -37,6 +37,9 @@ class ThreadTeam {
   ThreadTeam(const ThreadTeam&) = delete;
   ThreadTeam& operator=(const ThreadTeam&) = delete;
 
+  // How many loops it has run.
+  std::uint32_t loops() const { return loop_; }
+
   // body(block) for each block, in any order, on at most so many members. Rethrows the exception of the first block that throws,
   // once all have ended.
   void for_each(int members, std::size_t blocks, const std::function<void(std::size_t)>& body, Taking taking);
@@ -58,7 +61,6 @@ class ThreadTeam {
   static std::optional<std::size_t> take(Member& member, std::uint32_t loop, End end);
   void do_portion(std::size_t member, std::size_t portion);
   void call_members(std::size_t members);
-  void rethrow_failure();
 
   std::vector<Member> members_;
   std::vector<std::thread> helpers_;

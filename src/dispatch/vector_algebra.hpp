@@ -6,6 +6,7 @@
 
 #include "core/aligned_array.hpp"
 #include "core/parallel.hpp"
+#include "core/slot_work.hpp"
 #include "kernel_table.hpp"
 
 namespace lanescape {
@@ -53,6 +54,8 @@ class VectorAlgebra {
       return table_->dot(a.data() + first, b.data() + first, count);
     });
   }
+  // Does the work in all slots, on as many threads as pay.
+  void for_all_slots(std::size_t slots, const SlotWork& work) const { lanescape::for_all_slots(threads_, slots, work); }
   // Sums over particles of |to - from|^2 and |to - from|^4.
   kernels::DisplacementMoments displacement_moments(const AlignedArray& from, const AlignedArray& to) const {
     return table_->displacement_moments(from.data(), to.data(), from.size() / 3);

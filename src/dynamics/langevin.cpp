@@ -1,5 +1,6 @@
 #include "dynamics/langevin.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/option_checks.hpp"
@@ -35,16 +36,23 @@ Langevin::Langevin(SoftLandscape& landscape, const Mixture& model, const Particl
   landscape_->gradient(position_, gradient_);
 }
 
-void Langevin::kick() {
-  for (std::size_t k = 0; k < velocity_.size(); ++k) velocity_[k] += kick_[k] * gradient_[k];
+void Langevin::kick(std::size_t begin, std::size_t end) {
+  const std::size_t slots = velocity_.size() / 3;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t k = axis * slots + begin; k < axis * slots + end; ++k) velocity_[k] += kick_[k] * gradient_[k];
 }
 
-void Langevin::drift() { landscape_->algebra().axpy(position_, position_, 0.5 * options_.time_step, velocity_); }
+void Langevin::drift(std::size_t begin, std::size_t end) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    landscape_->algebra().add_scaled(position_, 0.5 * options_.time_step, velocity_, axis * (position_.size() / 3) + begin,
+                                     end - begin);
+}
 
-void Langevin::friction_and_noise() {
+void Langevin::friction_and_noise(std::size_t begin, std::size_t end) {
   const double kept = std::exp(-options_.friction * options_.time_step);
   const std::size_t slots = velocity_.size() / 3;
-  for (std::size_t i = 0; i < slots_.size(); ++i) {
+  for (auto i = static_cast<std::size_t>(std::lower_bound(slots_.begin(), slots_.end(), begin) - slots_.begin());
+       i < slots_.size() && slots_[i] < end; ++i) {
     const double given = std::sqrt((1.0 - kept * kept) * options_.temperature / masses_[i]);
     for (std::uint32_t axis = 0; axis < 3; ++axis) {
       double& v = velocity_[axis * slots + slots_[i]];
@@ -54,12 +62,14 @@ void Langevin::friction_and_noise() {
 }
 
 void Langevin::step() {
-  kick();
-  drift();
-  friction_and_noise();
-  drift();
-  landscape_->gradient(position_, gradient_);
-  kick();
+  const auto move = [this](std::size_t begin, std::size_t end) {
+    kick(begin, end);
+    drift(begin, end);
+    friction_and_noise(begin, end);
+    drift(begin, end);
+  };
+  landscape_->gradient_after(move, position_, gradient_);
+  landscape_->algebra().for_all_slots(position_.size() / 3, [this](std::size_t begin, std::size_t end) { kick(begin, end); });
   ++steps_;
 }
 

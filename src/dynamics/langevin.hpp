@@ -41,9 +41,10 @@ class Langevin {
   void exchange(Archive& archive);
 
  private:
-  void kick();
-  void drift();
-  void friction_and_noise();
+  // Each of particles in slots [begin, end), multiples of slot_padding: half a step; half a step; a whole one.
+  void kick(std::size_t begin, std::size_t end);
+  void drift(std::size_t begin, std::size_t end);
+  void friction_and_noise(std::size_t begin, std::size_t end);
 
   SoftLandscape* landscape_;
   LangevinOptions options_;

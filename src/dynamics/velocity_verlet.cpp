@@ -1,5 +1,6 @@
 #include "dynamics/velocity_verlet.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/padded.hpp"
@@ -42,17 +43,30 @@ void VelocityVerlet::rescale_to(double temperature) {
   for (double& v : velocity_) v *= factor;
 }
 
-void VelocityVerlet::kick(double time) {
+void VelocityVerlet::kick(std::size_t begin, std::size_t end) {
+  const std::size_t slots = position_.size() / 3;
   for (const Segment& segment : segments_)
-    landscape_->algebra().add_scaled(velocity_, -time / segment.mass, gradient_, segment.begin, segment.length);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t first = std::max(axis * slots + begin, segment.begin),
+                        last = std::min(axis * slots + end, segment.begin + segment.length);
+      if (first < last)
+        landscape_->algebra().add_scaled(velocity_, -0.5 * time_step_ / segment.mass, gradient_, first, last - first);
+    }
+}
+
+void VelocityVerlet::drift(std::size_t begin, std::size_t end) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    landscape_->algebra().add_scaled(position_, time_step_, velocity_, axis * (position_.size() / 3) + begin, end - begin);
 }
 
 void VelocityVerlet::step() {
-  kick(0.5 * time_step_);
-  landscape_->algebra().axpy(position_, position_, time_step_, velocity_);
-  landscape_->gradient(position_, gradient_);
+  const auto move = [this](std::size_t begin, std::size_t end) {
+    kick(begin, end);
+    drift(begin, end);
+  };
+  landscape_->gradient_after(move, position_, gradient_);
   potential_.reset();
-  kick(0.5 * time_step_);
+  landscape_->algebra().for_all_slots(position_.size() / 3, [this](std::size_t begin, std::size_t end) { kick(begin, end); });
   ++steps_;
 }
 

@@ -46,7 +46,9 @@ class VelocityVerlet {
     std::size_t begin, length;
     double mass;
   };
-  void kick(double time);
+  // Half a step of particles in slots [begin, end), multiples of slot_padding; a whole one.
+  void kick(std::size_t begin, std::size_t end);
+  void drift(std::size_t begin, std::size_t end);
 
   SoftLandscape* landscape_;
   const ParticleLayout* layout_;

@@ -18,6 +18,9 @@ class PairLandscape final : public SoftLandscape {
   double energy(const AlignedArray& position) override { return interaction_.energy(position); }
   double energy_and_gradient(const AlignedArray& position, AlignedArray& gradient) override;
   void gradient(const AlignedArray& position, AlignedArray& gradient) override { interaction_.gradient(position, gradient); }
+  void gradient_after(const SlotWork& move, const AlignedArray& position, AlignedArray& gradient) override {
+    interaction_.gradient_after(move, position, gradient);
+  }
   std::unique_ptr<SegmentBound> segment_bound(double longest) const override { return interaction_.segment_bound(longest); }
   bool has_history() const override { return interaction_.has_list(); }
   void pass_over(const AlignedArray& position) override { interaction_.pass_over(position); }

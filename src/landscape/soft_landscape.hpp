@@ -7,6 +7,7 @@
 #include "core/aligned_array.hpp"
 #include "core/archive.hpp"
 #include "core/segment_bound.hpp"
+#include "core/slot_work.hpp"
 #include "dispatch/vector_algebra.hpp"
 
 namespace lanescape {
@@ -29,6 +30,11 @@ class SoftLandscape {
   virtual double energy_and_gradient(const AlignedArray& position, AlignedArray& gradient) = 0;
   // grad V(R) with the same bits as energy_and_gradient().
   virtual void gradient(const AlignedArray& position, AlignedArray& gradient) { energy_and_gradient(position, gradient); }
+  // The same at the positions to which `move` brings the particles. A landscape with threads does both in as few loops as it can.
+  virtual void gradient_after(const SlotWork& move, const AlignedArray& position, AlignedArray& gradient) {
+    algebra().for_all_slots(dimension() / 3, move);
+    this->gradient(position, gradient);
+  }
 
   // Bounds of V along segments up to `longest` [sigma]; null where none is known.
   virtual std::unique_ptr<SegmentBound> segment_bound(double) const { return nullptr; }

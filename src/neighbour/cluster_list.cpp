@@ -24,7 +24,9 @@ ClusterList::ClusterList(const Box& box, const ParticleLayout& layout, const std
       blocks_(cutoffs, skin, inner_part * skin, table),
       sums_(static_cast<std::size_t>(threads)) {}
 
-bool ClusterList::must_prune(const AlignedArray& positions) {
+bool ClusterList::must_prune(const AlignedArray& positions, const SlotWork& move) {
+  // Clusters take particles of any slots: all have to be where they belong.
+  if (move) for_all_slots(threads_, slots_, move);
   std::atomic<bool> must = false;
   for_each_part(threads_, [&](int part) {
     if (pruned_.is_due(positions, first_slot(slots_, part, threads_), first_slot(slots_, part + 1, threads_))) must = true;
@@ -35,9 +37,12 @@ bool ClusterList::must_prune(const AlignedArray& positions) {
 
 bool ClusterList::is_due(const AlignedArray& positions) const { return frame_.is_due(positions, 0, slots_); }
 
-void ClusterList::update(const AlignedArray& positions) {
-  if (frame_.is_empty()) return rebuild(positions);
-  if (!must_prune(positions)) return;
+void ClusterList::update(const AlignedArray& positions, const SlotWork& move) {
+  if (frame_.is_empty()) {
+    if (move) for_all_slots(threads_, slots_, move);
+    return rebuild(positions);
+  }
+  if (!must_prune(positions, move)) return;
   if (is_due(positions)) {
     if (!frame_.any_boxes(positions)) return rebuild(positions);
     frame_.count_boxes(positions);

@@ -6,6 +6,7 @@
 
 #include "core/archive.hpp"
 #include "core/parallel.hpp"
+#include "core/slot_work.hpp"
 #include "neighbour/cluster_blocks.hpp"
 #include "neighbour/cluster_columns.hpp"
 #include "neighbour/list_frame.hpp"
@@ -39,8 +40,8 @@ class ClusterList {
   // Writes `unit` times the gradients that were collected to every slot that has a particle.
   void put_gradients(double unit, AlignedArray& gradient);
 
-  // As an evaluation at these positions does.
-  void update(const AlignedArray& positions);
+  // As an evaluation at these positions does, to which `move` brings the particles, if there is one.
+  void update(const AlignedArray& positions, const SlotWork& move = {});
   // Takes another box for what follows. Rebuilds lists then only if they do not outlast the change.
   void set_box(const Box& box);
 
@@ -56,7 +57,7 @@ class ClusterList {
  private:
   void rebuild(const AlignedArray& positions);
   // Whether a particle has moved too far since lists were pruned; brings clusters up to date along the way.
-  bool must_prune(const AlignedArray& positions);
+  bool must_prune(const AlignedArray& positions, const SlotWork& move);
   bool is_due(const AlignedArray& positions) const;
 
   std::size_t slots_;

@@ -92,18 +92,23 @@ kernels::NeighbourRows NeighbourList::rows_of(std::size_t block) const {
           .fixed_unit = points_.fixed_unit()};
 }
 
-void NeighbourList::update(const AlignedArray& positions) {
-  if (frame_.is_empty()) return rebuild(positions);
-  if (!moved_too_far(positions)) return;
-  if (!take_out_boxes(positions) || moved_too_far(positions)) rebuild(positions);
+void NeighbourList::update(const AlignedArray& positions, const SlotWork& move) {
+  if (frame_.is_empty()) {
+    if (move) for_all_slots(threads_, slots_, move);
+    return rebuild(positions);
+  }
+  if (!moved_too_far(positions, move)) return;
+  if (!take_out_boxes(positions) || moved_too_far(positions, {})) rebuild(positions);
 }
 
-bool NeighbourList::moved_too_far(const AlignedArray& positions) {
+bool NeighbourList::moved_too_far(const AlignedArray& positions, const SlotWork& move) {
   std::atomic<bool> too_far = false;
   // Points are refreshed in the same pass: it is rarely in vain, and threads wait for each other once less.
-  for_each_part(threads_, [&](int part) {
-    if (frame_.is_due(positions, first_slot(slots_, part, threads_), first_slot(slots_, part + 1, threads_))) too_far = true;
-    points_.refresh(positions, part);
+  for_each_block(threads_, points_.ranges(), [&](std::size_t range) {
+    const std::size_t begin = range * slot_range, end = std::min(begin + slot_range, slots_);
+    if (move) move(begin, end);
+    if (frame_.is_due(positions, begin, end)) too_far = true;
+    points_.refresh(positions, range);
   });
   return too_far;
 }

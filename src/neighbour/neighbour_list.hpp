@@ -11,6 +11,7 @@
 #include "core/aligned_array.hpp"
 #include "core/archive.hpp"
 #include "core/box.hpp"
+#include "core/slot_work.hpp"
 #include "kernel_table.hpp"
 #include "neighbour/exclusions.hpp"
 #include "neighbour/kept_array.hpp"
@@ -38,8 +39,9 @@ class NeighbourList {
                 const kernels::KernelTable& table, int threads, Coordinates coordinates = Coordinates::floating,
                 Members members = Members::others);
 
-  // Call it before the list is used at new positions (layout's order, wrapped or not).
-  void update(const AlignedArray& positions);
+  // Call it before the list is used at new positions (layout's order, wrapped or not), to which `move` brings the particles, if there
+  // is one.
+  void update(const AlignedArray& positions, const SlotWork& move = {});
   // Takes another box for the next update(). Rebuilds the list then only if this one does not outlast the change.
   void set_box(const Box& box);
   // Leaves these pairs out of the next lists, with no other than their nearest image when a list is made; null: none. Pairs may be
@@ -112,7 +114,7 @@ class NeighbourList {
   void rebuild(const AlignedArray& positions);
   // For a new list in this box.
   void prepare(const Box& box);
-  bool moved_too_far(const AlignedArray& positions);
+  bool moved_too_far(const AlignedArray& positions, const SlotWork& move);
   // Whether that was due to whole boxes alone, which are then taken out.
   bool take_out_boxes(const AlignedArray& positions);
   void cut_into_blocks(const ParticleLayout& layout);

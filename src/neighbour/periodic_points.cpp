@@ -10,6 +10,7 @@
 #include "core/coordinate_checks.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/slot_work.hpp"
 #include "neighbour/closed_gaps.hpp"
 #include "neighbour/least_cell.hpp"
 #include "neighbour/point_cells.hpp"
@@ -29,6 +30,13 @@ void check_boxes_away(double x, double boxes, double length) {
                               length, most_boxes_away));
 }
 
+// The nearest whole number, modulo 2^32.
+std::int32_t in_units(double x) {
+  // Added to a number below 2^51, this leaves no bits for a fraction and the rounded number, modulo 2^32, in the lowest 32.
+  constexpr double shifter = 6755399441055744.0;
+  return static_cast<std::int32_t>(std::bit_cast<std::uint64_t>(x + shifter));
+}
+
 }  // namespace
 
 PeriodicPoints::PeriodicPoints(const Box& box, const ParticleLayout& layout, std::vector<double> margins, int threads,
@@ -40,7 +48,8 @@ PeriodicPoints::PeriodicPoints(const Box& box, const ParticleLayout& layout, std
       threads_(threads),
       fixed_unit_(fixed_unit),
       grids_(margins.size()),
-      parts_(threads == 1 ? 1 : parts_of_thread * static_cast<std::size_t>(threads)) {
+      parts_(threads == 1 ? 1 : parts_of_thread * static_cast<std::size_t>(threads)),
+      ranges_((layout.slots() + slot_range - 1) / slot_range) {
   for (std::size_t s = 0; s < margins.size(); ++s) grids_[s].margin = margins[s];
   set_box(box);
 }
@@ -175,14 +184,17 @@ void PeriodicPoints::list_images_of(const AlignedArray& positions, std::size_t s
 
 template <bool sparse>
 void PeriodicPoints::list_images(const AlignedArray& positions, std::size_t part) {
-  const std::size_t begin = particles_ * part / parts_.size(), end = particles_ * (part + 1) / parts_.size();
   Part& own = parts_[part];
   own.images.clear();
   own.places.assign(cells_, 0);
-  for (std::size_t s = 0; s < grids_.size(); ++s) {
-    const std::size_t first = grids_[s].first_particle, last = first + blocks_[s].count;
-    for (std::size_t k = std::max(begin, first); k < std::min(end, last); ++k)
-      list_images_of<sparse>(positions, blocks_[s].begin + (k - first), grids_[s], own);
+  for (std::size_t range = first_range(part); range < first_range(part + 1); ++range) {
+    const std::size_t begin = range * slot_range, end = begin + slot_range, first = own.images.size();
+    for (std::size_t s = 0; s < grids_.size(); ++s) {
+      const kernels::SpeciesBlock& block = blocks_[s];
+      for (std::size_t slot = std::max(begin, block.begin); slot < std::min(end, block.begin + block.count); ++slot)
+        list_images_of<sparse>(positions, slot, grids_[s], own);
+    }
+    ranges_[range] = {part, first, own.images.size()};
   }
 }
 
@@ -205,7 +217,11 @@ void PeriodicPoints::sort_points(const AlignedArray& positions) {
   if (fixed_unit_ > 0.0) fixed_points_.room_for(kernels::point_width * size_);
   for (auto& column : columns_) std::fill_n(column.room_for(size_ + read_ahead) + size_, read_ahead, 0.0F);
   for_each([&](std::size_t part) {
-    for (const Image& image : parts_[part].images) sorted_[parts_[part].places[image.cell]++] = image;
+    for (Image& image : parts_[part].images) {
+      const std::uint32_t point = parts_[part].places[image.cell]++;
+      sorted_[point] = image;
+      image.cell = point;
+    }
   });
   for_each([&](std::size_t part) { put_points<sparse>(positions, part); });
   number_points();
@@ -297,18 +313,22 @@ void PeriodicPoints::shift_back(const AlignedArray& before, const AlignedArray& 
     }
 }
 
-void PeriodicPoints::refresh(const AlignedArray& positions, int part) {
-  const std::size_t begin = part_begin(size(), part, threads_), end = part_begin(size(), part + 1, threads_);
-  const double *x = positions.data(), *y = x + layout_slots_, *z = y + layout_slots_;
-  for (std::size_t k = begin; k < end; ++k) {
-    double* point = points_.data() + kernels::point_width * k;
-    const std::size_t slot = slots_[k];
+void PeriodicPoints::refresh(const AlignedArray& positions, std::size_t range) {
+  fixed_unit_ > 0.0 ? refresh_range<true>(positions, range) : refresh_range<false>(positions, range);
+}
+
+template <bool with_integers>
+void PeriodicPoints::refresh_range(const AlignedArray& positions, std::size_t range) {
+  const double *x = positions.data(), *y = x + layout_slots_, *z = y + layout_slots_, per_length = 1.0 / fixed_unit_;
+  const Image* images = parts_[ranges_[range].part].images.data();
+  for (std::size_t m = ranges_[range].begin; m < ranges_[range].end; ++m) {
+    const std::size_t slot = images[m].slot, k = images[m].cell;
     const std::array<double, 3>& shift = shifts_[k];
-    point[0] = x[slot] + shift[0];
-    point[1] = y[slot] + shift[1];
-    point[2] = z[slot] + shift[2];
+    const double at[3] = {x[slot] + shift[0], y[slot] + shift[1], z[slot] + shift[2]};
+    for (std::size_t axis = 0; axis < 3; ++axis) points_[kernels::point_width * k + axis] = at[axis];
+    if constexpr (with_integers)
+      for (std::size_t axis = 0; axis < 3; ++axis) fixed_points_[kernels::point_width * k + axis] = in_units(at[axis] * per_length);
   }
-  if (fixed_unit_ > 0.0) fix_points(begin, end);
 }
 
 void PeriodicPoints::set_values(const AlignedArray& per_slot, std::size_t stride, int part) {
@@ -318,11 +338,9 @@ void PeriodicPoints::set_values(const AlignedArray& per_slot, std::size_t stride
 }
 
 void PeriodicPoints::fix_points(std::size_t begin, std::size_t end) {
-  // Added to a number below 2^51, this leaves no bits for a fraction and the rounded number, modulo 2^32, in the lowest 32.
-  constexpr double shifter = 6755399441055744.0;
   const double per_length = 1.0 / fixed_unit_;
   for (std::size_t k = kernels::point_width * begin; k < kernels::point_width * end; ++k)
-    fixed_points_[k] = static_cast<std::int32_t>(std::bit_cast<std::uint64_t>(points_[k] * per_length + shifter));
+    fixed_points_[k] = in_units(points_[k] * per_length);
 }
 
 kernels::PointGrid PeriodicPoints::grid(std::size_t species) const {
@@ -340,6 +358,7 @@ std::size_t PeriodicPoints::memory() const {
                       bytes_of(rows_) + bytes_of(offsets_) + bytes_of(sorted_);
   for (const auto& column : columns_) bytes += bytes_of(column);
   for (const Part& part : parts_) bytes += bytes_of(part.images) + bytes_of(part.places);
+  bytes += bytes_of(ranges_);
   return bytes;
 }
 

@@ -41,8 +41,9 @@ class PeriodicPoints {
   // Counts of boxes, per coordinate in the layout's order, by which particles were shifted since the sort: their points stay where
   // they are once refreshed. `before`: those of the last call, or zeros.
   void shift_back(const AlignedArray& before, const AlignedArray& boxes, int part);
-  // Updates the same points to new positions.
-  void refresh(const AlignedArray& positions, int part);  // a part of them, one per thread
+  // Updates the points of the particles in a range of slots, of slot_range slots, to new positions.
+  void refresh(const AlignedArray& positions, std::size_t range);
+  std::size_t ranges() const { return ranges_.size(); }
 
   // Copies one number of each particle into the fourth number of its points' records, until the next sort.
   void set_values(const AlignedArray& per_slot, std::size_t stride, int part);  // of a part of the points, one per thread
@@ -82,13 +83,18 @@ class PeriodicPoints {
     std::size_t cell_of(const std::array<double, 3>& position) const;
   };
   struct Image {
-    std::uint32_t slot, cell;
+    std::uint32_t slot;
+    std::uint32_t cell;                 // once sorted, the point
     std::array<std::int16_t, 3> boxes;  // from the particle's own point in the box
     bool is_own() const { return (boxes[0] | boxes[1] | boxes[2]) == 0; }
   };
-  // The work of a sort is cut into parts, several for each thread: particles, cells or points.
+  // The images of the particles in a range of slots, among those of a part.
+  struct Range {
+    std::size_t part, begin, end;
+  };
+  // The work of a sort is cut into parts, several for each thread: ranges of slots, cells or points.
   struct Part {
-    AlignedVector<Image> images;          // of its particles
+    AlignedVector<Image> images;          // of its particles, in the order of their slots
     AlignedVector<std::uint32_t> places;  // per cell: the number of these; then where the next of them goes
     std::size_t points = 0, rows = 0;     // in its cells; among its points
   };
@@ -115,10 +121,13 @@ class PeriodicPoints {
   void sort_points(const AlignedArray& positions);
   template <bool sparse>
   void put_points(const AlignedArray& positions, std::size_t part);
+  template <bool with_integers>
+  void refresh_range(const AlignedArray& positions, std::size_t range);
   void number_points();
   void put_rows(std::size_t part, std::size_t next);
   // Of the points [begin, end).
   void fix_points(std::size_t begin, std::size_t end);
+  std::size_t first_range(std::size_t part) const { return ranges_.size() * part / parts_.size(); }
 
   Box whole_box_, box_;
   std::vector<kernels::SpeciesBlock> blocks_;
@@ -140,6 +149,7 @@ class PeriodicPoints {
   std::array<KeptArray<float>, 3> columns_;
   // Scratch of a sort, kept to reuse its memory.
   std::vector<Part> parts_;
+  std::vector<Range> ranges_;
   KeptArray<Image> sorted_;
 };
 

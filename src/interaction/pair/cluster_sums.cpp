@@ -47,8 +47,8 @@ kernels::ClusterInput ClusterSums::input(const kernels::ClusterLists& lists, std
 }
 
 template <class Evaluate>
-void ClusterSums::for_each_block(const AlignedArray& positions, Evaluate evaluate) {
-  list_.update(positions);
+void ClusterSums::for_each_block(const AlignedArray& positions, Evaluate evaluate, const SlotWork& move) {
+  list_.update(positions, move);
   const std::size_t pairs = list_.species_pairs().size();
   sums_.assign(list_.block_count() * pairs, {});
   list_.for_each_block([&](std::size_t block, std::size_t pair, const kernels::ClusterLists& lists, float* gradients) {
@@ -78,10 +78,13 @@ double ClusterSums::energy(const AlignedArray& positions) {
   return total().energy;
 }
 
-void ClusterSums::gradient_only(const AlignedArray& positions, AlignedArray& gradient) {
-  for_each_block(positions, [&](const kernels::ClusterInput& in, float* gradients, kernels::PairOutput&) {
+void ClusterSums::gradient_only(const AlignedArray& positions, AlignedArray& gradient) { gradient_after({}, positions, gradient); }
+
+void ClusterSums::gradient_after(const SlotWork& move, const AlignedArray& positions, AlignedArray& gradient) {
+  const auto evaluate = [&](const kernels::ClusterInput& in, float* gradients, kernels::PairOutput&) {
     kernels_->cluster_force(in, gradients);
-  });
+  };
+  for_each_block(positions, evaluate, move);
   put_gradients(gradient);
 }
 

@@ -22,6 +22,7 @@ class ClusterSums final : public PairSums {
 
   double energy(const AlignedArray& positions) override;
   void gradient_only(const AlignedArray& positions, AlignedArray& gradient) override;
+  void gradient_after(const SlotWork& move, const AlignedArray& positions, AlignedArray& gradient) override;
   void gradient(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) override;
   void stress(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) override;
   void set_box(const PairModel& model, const Box& box) override;
@@ -40,7 +41,7 @@ class ClusterSums final : public PairSums {
   };
   kernels::ClusterInput input(const kernels::ClusterLists& lists, std::size_t pair) const;
   template <class Evaluate>
-  void for_each_block(const AlignedArray& positions, Evaluate evaluate);
+  void for_each_block(const AlignedArray& positions, Evaluate evaluate, const SlotWork& move = {});
   kernels::PairOutput total() const;
   void put_gradients(AlignedArray& gradient);
 

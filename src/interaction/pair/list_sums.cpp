@@ -45,8 +45,8 @@ ListSums::ListSums(const PairModel& model, const Box& box, const ParticleLayout&
 }
 
 template <class Evaluate>
-void ListSums::for_each_block(const AlignedArray& positions, Evaluate evaluate) {
-  list_.update(positions);
+void ListSums::for_each_block(const AlignedArray& positions, Evaluate evaluate, const SlotWork& move) {
+  list_.update(positions, move);
   if (diameters_.size() > 0 && diameters_at_ != list_.rebuilds()) {
     list_.set_values(diameters_, 1);
     diameters_at_ = list_.rebuilds();
@@ -105,12 +105,15 @@ void ListSums::energies(const AlignedArray& positions, AlignedArray& energies) {
   });
 }
 
-void ListSums::gradient_only(const AlignedArray& positions, AlignedArray& gradient) {
+void ListSums::gradient_only(const AlignedArray& positions, AlignedArray& gradient) { gradient_after({}, positions, gradient); }
+
+void ListSums::gradient_after(const SlotWork& move, const AlignedArray& positions, AlignedArray& gradient) {
   const auto sum = precision_ == Precision::mixed ? kernels_->list_force_mixed : kernels_->list_force;
-  for_each_block(positions, [&](std::size_t b, const kernels::PairListInput& in, double* records) {
+  const auto evaluate = [&](std::size_t b, const kernels::PairListInput& in, double* records) {
     sum(in, records);
     put_gradient(b, records, gradient);
-  });
+  };
+  for_each_block(positions, evaluate, move);
   clear_slots(padding_, gradient);
 }
 

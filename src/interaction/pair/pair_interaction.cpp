@@ -157,6 +157,15 @@ void PairInteraction::gradient(const AlignedArray& positions, AlignedArray& grad
   reduced_.restore(gradient);
 }
 
+void PairInteraction::gradient_after(const SlotWork& move, const AlignedArray& positions, AlignedArray& gradient) {
+  const FloatEnvironment environment;
+  if (reduced_.unit() != 1.0) {
+    for_all_slots(options_.threads, layout_.slots(), move);
+    return this->gradient(positions, gradient);
+  }
+  sums_->gradient_after(move, positions, gradient);
+}
+
 PairInteraction::Evaluation PairInteraction::energy_and_gradient(const AlignedArray& positions, AlignedArray& gradient) {
   const FloatEnvironment environment;
   kernels::PairOutput out;

@@ -12,6 +12,7 @@
 #include "core/archive.hpp"
 #include "core/box.hpp"
 #include "core/segment_bound.hpp"
+#include "core/slot_work.hpp"
 #include "interaction/pair/images.hpp"
 #include "interaction/pair/long_range.hpp"
 #include "interaction/pair/pair_search.hpp"
@@ -61,6 +62,8 @@ class PairInteraction {
 
   double energy(const AlignedArray& positions);
   void gradient(const AlignedArray& positions, AlignedArray& gradient);
+  // The same at the positions to which `move` brings the particles, in fewer loops of threads where there is a list.
+  void gradient_after(const SlotWork& move, const AlignedArray& positions, AlignedArray& gradient);
   Evaluation energy_and_gradient(const AlignedArray& positions, AlignedArray& gradient);
   // In double precision always.
   Evaluation energy_and_stress(const AlignedArray& positions, AlignedArray& gradient);

@@ -9,6 +9,7 @@
 #include "core/aligned_array.hpp"
 #include "core/archive.hpp"
 #include "core/box.hpp"
+#include "core/slot_work.hpp"
 #include "interaction/pair/pair_interaction.hpp"
 #include "kernel_table.hpp"
 #include "neighbour/exclusions.hpp"
@@ -26,6 +27,11 @@ class PairSums {
   virtual ~PairSums() = default;
   virtual double energy(const AlignedArray& positions) = 0;
   virtual void gradient_only(const AlignedArray& positions, AlignedArray& gradient) = 0;
+  // The same at the positions to which `move` brings the particles.
+  virtual void gradient_after(const SlotWork& move, const AlignedArray& positions, AlignedArray& gradient) {
+    move(0, positions.size() / 3);
+    gradient_only(positions, gradient);
+  }
   virtual void gradient(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) = 0;
   virtual void stress(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) = 0;
   // Takes another box for what follows.
@@ -70,6 +76,7 @@ class ListSums final : public PairSums {
 
   double energy(const AlignedArray& positions) override;
   void gradient_only(const AlignedArray& positions, AlignedArray& gradient) override;
+  void gradient_after(const SlotWork& move, const AlignedArray& positions, AlignedArray& gradient) override;
   void gradient(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) override;
   void stress(const AlignedArray& positions, AlignedArray& gradient, kernels::PairOutput& out) override;
   void set_box(const PairModel&, const Box& box) override { list_.set_box(box); }
@@ -84,9 +91,9 @@ class ListSums final : public PairSums {
   NeighbourList& list() { return list_; }
 
  private:
-  // evaluate(input of a block's rows, records for their gradients, sums of the block) for every block.
+  // evaluate(input of a block's rows, records for their gradients, sums of the block) for every block, after `move`.
   template <class Evaluate>
-  void for_each_block(const AlignedArray& positions, Evaluate evaluate);
+  void for_each_block(const AlignedArray& positions, Evaluate evaluate, const SlotWork& move = {});
   void put_gradient(std::size_t block, const double* records, AlignedArray& gradient) const;
   kernels::PairOutput total() const;
 
