@@ -33,7 +33,8 @@ SEES_KERNEL_TABLE = {"dispatch", "neighbour", "interaction", "dynamics", "verifi
 SEEN_OF_KERNELS = ("views/", "pair_forms.hpp")
 SEES_REFERENCE = {"verification"}
 # The program starts runs, reads files, averages results and verifies; landscapes, dynamics, steppers and paths reach it through run/ only.
-PROGRAM_STAGES = {"core", "configuration", "io", "dispatch", "insertion", "interaction", "observables", "run", "verification"}
+PROGRAM_STAGES = {"core", "configuration", "io", "dispatch", "insertion", "interaction", "landscape", "observables", "run",
+                  "verification"}
 
 KERNEL_STANDARD_HEADERS = {"cstddef", "cstdint", "cmath", "type_traits", "utility"}
 VECTOR_LAYER = "kernels/simd/"

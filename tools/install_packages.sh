@@ -7,7 +7,7 @@ packages="
   libxsimd-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libhdf5-dev librandom123-dev libkissfft-dev
   libeigen3-dev
   libgtest-dev libbenchmark-dev valgrind
-  lammps libkim-api-dev mpi-default-bin
+  lammps liblammps-dev libkim-api-dev mpi-default-bin mpi-default-dev
   python3 python3-dev python3-venv python3-numpy python3-scipy python3-matplotlib python3-ase
 "
 

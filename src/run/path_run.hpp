@@ -1,17 +1,21 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "configuration/configuration.hpp"
 #include "configuration/model.hpp"
+#include "configuration/particle_layout.hpp"
 #include "core/decimated_trace.hpp"
 #include "core/run_monitor.hpp"
 #include "core/step_histogram.hpp"
 #include "dispatch/isa.hpp"
 #include "interaction/pair/pair_interaction.hpp"
+#include "landscape/soft_landscape.hpp"
 #include "path/finder.hpp"
 #include "run/configuration_pair.hpp"
 #include "run/path_method.hpp"
@@ -44,6 +48,9 @@ struct PathRunOptions {
   void check(const AnyModel& model) const;
 };
 
+// A landscape for a pair's particles, in positions and this order.
+using LandscapeOfPair = std::function<std::unique_ptr<SoftLandscape>(const ConfigurationPair&, const ParticleLayout&)>;
+
 struct PathResult {
   Outcome outcome = Outcome::running;
   std::string reason;                 // why it ended where it did not reach its goal
@@ -70,7 +77,9 @@ struct PathResult {
 
 // One path for each pair, paths in parallel. The results depend neither on the number of threads nor on interruption and
 // resumption. Throws Error(bad_input) for a pair that prepare_pair() refuses, and for a method that is not for this kind of model.
+// `landscape`, in place of the model's, serves one path after the other.
 std::vector<PathResult> run_paths(const AnyModel& model, const std::vector<ConfigurationPair>& pairs, const PathRunOptions& options,
-                                  Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor);
+                                  Isa isa, const CheckpointOptions& checkpoint, RunMonitor& monitor,
+                                  const LandscapeOfPair& landscape = {});
 
 }  // namespace lanescape

@@ -6,6 +6,7 @@
 #include "configuration/model_traits.hpp"
 #include "core/error.hpp"
 #include "end_point_options.hpp"
+#include "engine.hpp"
 #include "observables/statistics.hpp"
 #include "pair_files.hpp"
 #include "path_options.hpp"
@@ -24,6 +25,7 @@ struct PathState {
   EndPointSetup setup;
   std::vector<std::string> pair_files;
   PathOptions path;
+  std::string landscape;
   bool reverse = false, plot = false;
 
   PathRunOptions run_options(const AnyModel& model) const {
@@ -155,7 +157,32 @@ PathInput prepare(PathState& state, Options& options, const AnyModel& model, con
   return input;
 }
 
+// What computes energies in place of the model, which then tells species and masses.
+std::unique_ptr<Engine> open_engine(const PathState& state) {
+  const SystemOptions& system = state.system;
+  if (state.pair_files.empty()) throw_bad_input("--landscape needs files with end points, --pair");
+  if (system.cutoff || system.truncation || system.images || system.precision)
+    throw_bad_input(
+        "--cutoff, --truncation, --images and --precision are not allowed with --landscape: the engine has the energies");
+  if (is_hard(system.resolve())) throw_bad_input("--landscape is not allowed with hard spheres, which have no energies");
+  return Engine::open(state.landscape);
+}
+
+LandscapeOfPair landscape_of(Engine* engine, const AnyModel& model, Isa isa) {
+  if (engine == nullptr) return {};
+  return [=, &model](const ConfigurationPair& pair, const ParticleLayout& layout) {
+    engine->check(pair, model, "--pair");
+    return std::make_unique<EngineLandscape>(*engine, layout, isa);
+  };
+}
+
 Json run_path(PathState& state, Options& options, int& status) {
+  std::unique_ptr<Engine> engine;
+  if (!state.landscape.empty()) {
+    engine = open_engine(state);
+    if (!engine) return {};  // another process has searched
+    say(state.common, fmt::format("energies and lengths are in the engine's units: {}", engine->units()));
+  }
   state.common.check();
   const Isa isa = state.common.resolve_isa();
   const AnyModel model = state.system.resolve();
@@ -172,10 +199,12 @@ Json run_path(PathState& state, Options& options, int& status) {
   std::vector<PathResult> paths;
   if (ends.all) {
     TerminalMonitor monitor(state.common.quiet);
-    paths = run_paths(model, ends.pairs, path_options, isa, {folder.checkpoints(), !state.common.resume.empty()}, monitor);
+    paths = run_paths(model, ends.pairs, path_options, isa, {folder.checkpoints(), !state.common.resume.empty()}, monitor,
+                      landscape_of(engine.get(), model, isa));
   }
   const bool all_reached = add_paths(result, paths, *path_options.method, mixture_of(model)) && ends.all;
   add_system(result, state.system, model, radius_factor(state, ends.pairs), isa);
+  if (engine) result["landscape"] = {{"engine", state.landscape}, {"units", engine->units()}};
   status = all_reached ? done : goal_not_reached;
   if (folder.exists()) write_files(folder, paths, path_options, mixture_of(model));
   write_result(folder, "path", options.resolved(), result);
@@ -194,6 +223,8 @@ Subcommand add_path(CLI::App& app) {
       "endpoints");
   state->path.add_to(*options, "--method");
   options->add_flag("--reverse", state->reverse, "search from the far end too and keep the shorter path");
+  options->add("--landscape", state->landscape,
+               "an engine whose energies take the place of the model's, and its input: lammps:in.lmp (docs/HOSTS.md)");
   options->add("--frames", state->path.frames, "configurations of each path to write between its ends")
       .only_for({runs_with_a_folder});
   options->add_flag("--plot", state->plot, "draw the path and the equilibration (needs --out)").only_for({runs_with_a_folder});

@@ -44,6 +44,7 @@ int run(std::vector<std::string> arguments) {
     if (!subcommand.app->parsed()) continue;
     int status = done;
     const Json result = subcommand.run(status);
+    if (result.is_null()) return status;  // of a process that has served another one
     std::cout << text_of_result(result) << std::endl;
     if (std::cout) return status;
     complain("stdout: the result cannot be written");
