@@ -18,20 +18,37 @@ Point unit_vector(const Point& d) {
   return length > 0.0 ? Point{d[0] / length, d[1] / length, d[2] / length} : Point{1.0, 0.0, 0.0};
 }
 
-// `place`: 0 within a segment, 1 at the node behind it.
-std::uint64_t key_of(const Approach& pair, std::uint64_t place) {
+// Where a constraint holds: that of the closest approach, at the node behind the segment, and planes at either node.
+enum Place : std::uint64_t { at_approach, at_node, plane_before, plane_behind };
+constexpr std::uint64_t places = 3;  // their bits of a key
+
+std::uint64_t key_of(const Approach& pair, Place place) {
   std::uint64_t result = static_cast<std::uint64_t>(pair.first) << 22 | static_cast<std::uint64_t>(pair.second);
   for (const std::int32_t image : pair.image) result = result << 6 | static_cast<std::uint64_t>(image & 63);
-  return result << 1 | place;
+  return result << 2 | static_cast<std::uint64_t>(place);
 }
 
 bool by_key(const GapConstraint& a, const GapConstraint& b) { return a.key < b.key; }
 
 // Null where there is none among these, which are in the order of their keys.
-const GapConstraint* same_constraint(const std::vector<GapConstraint>& sorted, const GapConstraint& wanted) {
+const GapConstraint* find_constraint(const std::vector<GapConstraint>& sorted, const GapConstraint& wanted) {
   const auto found = std::lower_bound(sorted.begin(), sorted.end(), wanted, by_key);
   return found != sorted.end() && found->key == wanted.key ? &*found : nullptr;
 }
+
+// What is known of a constraint; planes that are new share the multiplier of their closest approach.
+struct Known {
+  Known(const std::vector<GapConstraint>& sorted, GapConstraint wanted) : constraint(find_constraint(sorted, wanted)) {
+    const std::uint64_t place = wanted.key & places;
+    if (constraint || place < plane_before) return;
+    wanted.key -= place;
+    constraint = find_constraint(sorted, wanted);
+    if (constraint) share = constraint->shares[place - plane_before];
+  }
+  double multiplier() const { return share * constraint->multiplier; }
+  const GapConstraint* constraint;
+  double share = 1.0;
+};
 
 // The unit normal of the plane that touches a sphere of radius `contact` and goes through `end`, on the side of `other`.
 Point tangent_through(const Point& end, const Point& other, double contact) {
@@ -70,23 +87,28 @@ class GapConstraints::Builder {
     const AlignedArray& radii = scratch_->spheres.radii();
     const double contact = radii[static_cast<std::size_t>(pair.first)] + radii[static_cast<std::size_t>(pair.second)];
     const Point before = separation_at(from, pair, owner_->box_), behind = separation_at(to, pair, owner_->box_);
-    const auto plane = [&](const Point& normal, const Point& d, std::array<double, 2> shares, std::uint64_t place) {
+    const auto plane = [&](const Point& normal, const Point& d, std::array<double, 2> shares, Place place) {
       const double gap = dot(normal, d) - contact;
       if (gap >= owner_->options_.reach) return false;
       out.push_back(constraint(pair, normal, gap, shares, place));
       return true;
     };
-    const auto follow = [&](const Point& d, std::array<double, 2> shares, std::uint64_t place) {
+    const auto follow = [&](const Point& d, std::array<double, 2> shares, Place place) {
       if (!plane(unit_vector(d), d, shares, place)) return false;
       out.back().distance = std::sqrt(dot(d, d));
       return true;
     };
-    if (!last_) follow(behind, {0.0, 1.0}, 1);
-    if (first_) {
-      if (pair.fraction < 1.0) plane(tangent_through(before, behind, contact), behind, {0.0, 1.0}, 0);
+    if (!last_) follow(behind, {0.0, 1.0}, at_node);
+    if (owner_->shape_ == Shape::planes && !first_ && !last_) {
+      const Point normal = unit_vector(pair.separation);
+      plane(normal, before, {1.0, 0.0}, plane_before);
+      plane(normal, behind, {0.0, 1.0}, plane_behind);
+    } else if (first_) {
+      if (pair.fraction < 1.0) plane(tangent_through(before, behind, contact), behind, {0.0, 1.0}, at_approach);
     } else if (last_) {
-      if (pair.fraction > 0.0) plane(tangent_through(behind, before, contact), before, {1.0, 0.0}, 0);
-    } else if (follow(pair.separation, {1.0 - pair.fraction, pair.fraction}, 0) && pair.fraction > 0.0 && pair.fraction < 1.0) {
+      if (pair.fraction > 0.0) plane(tangent_through(behind, before, contact), before, {1.0, 0.0}, at_approach);
+    } else if (follow(pair.separation, {1.0 - pair.fraction, pair.fraction}, at_approach) && pair.fraction > 0.0 &&
+               pair.fraction < 1.0) {
       add_turns(pair, difference(behind, before), out.back());
     }
   }
@@ -103,8 +125,7 @@ class GapConstraints::Builder {
           c.turns[node][sphere][axis] = along * move[axis] + across * pair.separation[axis];
       }
   }
-  GapConstraint constraint(const Approach& pair, const Point& normal, double gap, std::array<double, 2> shares,
-                           std::uint64_t place) const {
+  GapConstraint constraint(const Approach& pair, const Point& normal, double gap, std::array<double, 2> shares, Place place) const {
     const auto i = static_cast<std::size_t>(pair.first), j = static_cast<std::size_t>(pair.second);
     return {key_of(pair, place),
             {owner_->coordinates_.first_of(i), owner_->coordinates_.first_of(j)},
@@ -153,16 +174,18 @@ void GapConstraints::build(const Polyline& nodes, SegmentGapConstraints& segment
   });
 }
 
-void GapConstraints::follow(const Polyline& nodes, double barrier, bool keep_slacks) {
+void GapConstraints::follow(const Polyline& nodes, double barrier, Shape shape) {
   const SegmentGapConstraints before = std::move(segments_);
+  shape_ = shape;
   build(nodes, segments_);
   for (std::size_t k = 0; k < segments_.size(); ++k)
     for (GapConstraint& now : segments_[k]) {
-      const GapConstraint* const known = same_constraint(before[k], now);
-      now.slack = std::max(now.gap, known && keep_slacks ? known->slack : std::sqrt(barrier));
+      const Known known(before[k], now);
+      now.slack = std::max(now.gap, known.constraint ? known.constraint->slack : std::sqrt(barrier));
       const double central = barrier / now.slack;
-      now.stiffness = known && now.distance > 0.0 ? known->multiplier / now.distance : 0.0;
-      now.multiplier = known ? std::clamp(known->multiplier, central / neighbourhood, central * neighbourhood) : central;
+      now.stiffness = known.constraint && now.distance > 0.0 ? known.multiplier() / now.distance : 0.0;
+      now.multiplier =
+          known.constraint ? std::clamp(known.multiplier(), central / neighbourhood, central * neighbourhood) : central;
     }
 }
 
@@ -171,7 +194,7 @@ SegmentGapConstraints GapConstraints::at(const Polyline& nodes) {
   build(nodes, result);
   for (std::size_t k = 0; k < result.size(); ++k)
     for (GapConstraint& now : result[k])
-      if (const GapConstraint* const known = same_constraint(segments_[k], now)) now.multiplier = known->multiplier;
+      if (const GapConstraint* const known = find_constraint(segments_[k], now)) now.multiplier = known->multiplier;
   return result;
 }
 

@@ -43,13 +43,8 @@ struct GapConstraint {
   }
   // How much wider they make the gap.
   double change(const double* before, const double* behind) const { return dot(displacement(before, behind), normal); }
-  // How they move the separation across the normal.
-  Point across(const double* before, const double* behind) const {
-    Point moved = displacement(before, behind);
-    const double along = dot(moved, normal);
-    for (std::size_t axis = 0; axis < 3; ++axis) moved[axis] -= along * normal[axis];
-    return moved;
-  }
+  // Whether it lies within its segment, along which it may move.
+  bool turning() const { return shares[0] != 0.0 && shares[1] != 0.0; }
   // How far they move the closest approach along its segment.
   double turn(const double* before, const double* behind) const {
     double sum = 0.0;
@@ -94,6 +89,9 @@ class SphereCoordinates {
 // nearest inside it, which both nodes share, and one at each node: without these, a pair that slides along a short segment would be
 // held at one of its ends only. On the first and the last segment the plane through the end of the path that touches the sphere
 // replaces the closest approach, as no move of one node changes how near the end is.
+//
+// Closest approaches move along their segments, the faster the less the pair moves there: to first order they leave overlaps
+// behind. Planes do not: with both nodes beyond a plane that touches the sphere, so is all of the segment.
 class GapConstraints {
  public:
   struct Options {
@@ -104,9 +102,11 @@ class GapConstraints {
   GapConstraints(const HardSpherePath& path, const Options& options);
   ~GapConstraints();
 
-  // Follows the nodes, as many as begin() has been told. Slacks are those of before, where asked for, or fit the barrier, but at
-  // least the gaps. Multipliers are those of before, as far as their product with the slack is near the barrier; new ones fit it.
-  void follow(const Polyline& nodes, double barrier, bool keep_slacks);
+  // What a pair keeps to inside a segment, but the first and the last.
+  enum class Shape : std::uint8_t { approaches, planes };
+  // Follows the nodes, as many as begin() has been told. Slacks are those of before or fit the barrier, but are at least the gaps.
+  // Multipliers are those of before, as far as their product with the slack is near the barrier; new ones fit it.
+  void follow(const Polyline& nodes, double barrier, Shape shape);
   // The constraints of other nodes, with the multipliers of these.
   SegmentGapConstraints at(const Polyline& nodes);
   // Of any pair on any segment of the nodes that were looked at last, at most the reach [sigma].
@@ -132,6 +132,7 @@ class GapConstraints {
   AlignedArray scale_;  // dr/dq of each coordinate of the layout
   std::vector<std::unique_ptr<Scratch>> scratch_;
   std::uint64_t evaluations_ = 0;
+  Shape shape_ = Shape::approaches;
   SegmentGapConstraints segments_;
   std::vector<double> smallest_;  // gap of each segment
 };

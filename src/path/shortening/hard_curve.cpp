@@ -17,23 +17,29 @@ constexpr double margin = 1e-8;            // of gaps: more than the square of t
 constexpr double largest_overlap = 5e-10;  // of the path that is handed out
 constexpr double longest_move = 0.22;      // of a sphere: two that meet from beyond the reach do not touch
 constexpr double furthest = 0.16;          // that an iteration starts ahead of the path, by sphere
-// Of products of slacks and multipliers [mean segment squared]. While the path relaxes the barrier stays; then it falls by a factor
-// in each iteration that leaves a calm path.
-constexpr double first_barrier = 1e-5, later_barrier = 1e-6, last_barrier = 1e-8, tight_barrier = 1e-12, barrier_decay = 0.7;
-constexpr double calm_at_first = 0.03, calm = 0.07;  // residuals
-// A level, and the path handed out, have come to rest below these residuals; a path below 10^-2 is called stationary.
-constexpr double settled_level = 0.012, settled = 8e-3, settled_tight = 9.5e-3;
-constexpr double warmth = 10.0;          // multipliers of the last iteration fit this barrier, times that aimed at
-constexpr double largest_tension = 5.0;  // of short segments
-constexpr double most_momentum = 0.7;    // at most, of the last move
-constexpr double bulge = 0.5;            // share of that of gaps which is taken into account
-constexpr double later_softness = 0.9;   // of the string along its segments, but while it relaxes
+// Of products of slacks and multipliers [mean segment squared]: while the path relaxes; what it falls to, by a factor in each
+// iteration that leaves a calm path; and what it is tightened to.
+constexpr double first_barrier = 1e-5, last_barrier = 1e-8, tight_barrier = 1e-10, barrier_decay = 0.7, tight_decay = 0.1;
+// A level is at rest below this residual, or when its length falls by less than this part in so many iterations: at a high barrier
+// residuals are not better than the multipliers, about 0.1.
+constexpr double calm_at_first = 0.03, least_progress = 7e-5;
+// An iteration takes twice as long on each level. From the third level on a path relaxes for a few only: what it falls along
+// valleys would be taken for what the refinement changes.
+constexpr std::uint64_t progress_iterations = 6, relaxing_levels = 2, few_iterations = 12;
+constexpr double calm = 0.07, calm_move = 0.03;  // a residual, or [unit of length] moves of spheres, that let the barrier fall
+constexpr double settled = 8e-3, settled_tight = 9.5e-3;  // residuals; a path below 10^-2 is called stationary
+constexpr double warmth = 10.0;                           // multipliers of the last iteration fit this barrier, times that aimed at
+constexpr double largest_tension = 5.0;                   // of short segments
+constexpr double most_momentum = 0.7;                     // at most, of the last move
+constexpr double bulge = 0.5;                             // share of that of gaps which is taken into account
+constexpr double later_softness = 0.9;                    // of the string along its segments, while the barrier falls
 // Of moves: 1 is that of a node held by strings of its own. While the barrier falls it is this over the square of the number of
 // segments, which slows a wave along the path by the same factor on each level.
-constexpr double later_damping = 150.0, last_damping = 10.0;
-constexpr int few_steps = 2, more_steps = 4, most_steps = 40;  // of the interior-point method: relaxing, falling, at last
+constexpr double later_damping = 150.0, tight_damping = 10.0, clear_damping = 1000.0;
+constexpr int few_steps = 2, more_steps = 4, most_steps = 8;  // of the interior-point method: relaxing, falling, at last
 constexpr std::uint64_t most_iterations = 400, most_tight_iterations = 40;
 constexpr double matrix_memory = 4.0 * 1024 * 1024 * 1024;  // [bytes]
+constexpr double matrix_share = 1.25;                       // of numbers for a node, to the square of its coordinates
 constexpr double contact_gap = 5e-7;  // of pairs that touch [smallest diameter]: half of what the certificate takes for a contact
 
 }  // namespace
@@ -57,7 +63,7 @@ HardCurve::HardCurve(const HardSpherePath& path, const HardCurveOptions& options
 
 std::size_t HardCurve::most_nodes() const {
   const auto dimension = static_cast<double>(3 * layout_.size());
-  return 2 + static_cast<std::size_t>(matrix_memory / (2.0 * dimension * dimension * sizeof(double)));
+  return 2 + static_cast<std::size_t>(matrix_memory / (matrix_share * dimension * dimension * sizeof(double)));
 }
 
 void HardCurve::allocate(std::size_t nodes) {
@@ -69,16 +75,16 @@ void HardCurve::allocate(std::size_t nodes) {
 }
 
 void HardCurve::begin(Polyline nodes) {
-  const bool first = now_.empty();
   allocate(nodes.size());
   now_ = std::move(nodes);
   from_ = last_ = now_;
-  barrier_ = first ? first_barrier : later_barrier;
-  begin_phase(first ? Phase::relaxes : Phase::falls);
+  barrier_ = first_barrier;
+  ++levels_;
+  begin_phase(Phase::relaxes);
 }
 
 bool HardCurve::tighten() {
-  if (phase_ >= Phase::settles) return false;
+  if (phase_ != Phase::relaxes) return false;
   begin_phase(Phase::settles);
   return true;
 }
@@ -86,7 +92,8 @@ bool HardCurve::tighten() {
 void HardCurve::begin_phase(Phase phase) {
   phase_ = phase;
   phase_iterations_ = onward_ = 0;
-  if (phase != Phase::relaxes) from_ = now_;
+  last_length_ = 0.0;
+  from_ = now_;
 }
 
 void HardCurve::set_string() {
@@ -106,19 +113,19 @@ void HardCurve::set_string() {
 }
 
 void HardCurve::solve() {
-  const bool tight = phase_ == Phase::tightens, relaxes = phase_ == Phase::relaxes;
-  const double unit = mean_ * mean_, target = (tight ? tight_barrier : barrier_) * unit, size = std::min(1.0, residual_);
+  const bool tight = phase_ >= Phase::tightens, relaxes = phase_ == Phase::relaxes, clears = phase_ == Phase::clears;
+  const double target = barrier_ * mean_ * mean_, size = std::min(1.0, residual_);
   const auto segments = static_cast<double>(tensions_.size());
-  gaps_.follow(from_, warmth * target, !tight);
-  const int steps = tight ? most_steps : relaxes ? few_steps : more_steps;
+  gaps_.follow(from_, warmth * target, clears ? GapConstraints::Shape::planes : GapConstraints::Shape::approaches);
+  const int steps = clears ? most_steps : relaxes ? few_steps : more_steps;
   const InteriorPoint::Goal goal{target, (tight ? 1e-10 : 1e-2) * options_.length_unit, (tight ? 1e-3 : 0.1) * size * mean_, steps};
-  const double damping = tight ? last_damping : relaxes ? 0.0 : later_damping / (segments * segments);
+  const double damping = clears ? clear_damping : tight ? tight_damping : relaxes ? 0.0 : later_damping / (segments * segments);
   const double softness = tight || relaxes ? 0.0 : later_softness;
   interior_->solve({gradient_, tensions_, tangents_, softness, damping, bulge}, gaps_.of_segments(), goal);
 }
 
-// Takes the moves that were found, shortened so that no pair without a constraint can meet. Returns the longest of a sphere.
-double HardCurve::move() {
+// Takes the moves that were found, shortened so that no pair without a constraint can meet.
+void HardCurve::move() {
   const SphereCoordinates& coordinates = gaps_.coordinates();
   const auto longest = [&](const std::vector<AlignedArray>& moves) {
     double largest = 0.0;
@@ -133,12 +140,12 @@ double HardCurve::move() {
   for (std::size_t k = 0; k < interior_->moves().size(); ++k)
     for (std::size_t c = 0; c < coordinates.dimension(); ++c)
       now_[k + 1][coordinates.slot_coordinate(c)] += share * interior_->moves()[k][c];
-  return share * wanted;
+  longest_ = share * wanted;
 }
 
 // Starts the next iteration ahead of the path, in the direction of the last one, until an iteration turns back (O'Donoghue and
 // Candes 2015).
-void HardCurve::look_ahead(double longest) {
+void HardCurve::look_ahead() {
   double along = 0.0;
   AlignedArray taken(layout_.dimension(), 0.0), moved(taken);
   for (std::size_t k = 1; k + 1 < now_.size(); ++k) {
@@ -149,16 +156,18 @@ void HardCurve::look_ahead(double longest) {
   const bool on = along >= 0.0 && phase_ == Phase::relaxes;
   const auto since = static_cast<double>(onward_);
   const double share =
-      on ? std::min(most_momentum * since / (since + 3.0), furthest * options_.length_unit / std::max(longest, 1e-300)) : 0.0;
+      on ? std::min(most_momentum * since / (since + 3.0), furthest * options_.length_unit / std::max(longest_, 1e-300)) : 0.0;
   onward_ = on ? onward_ + 1 : 0;
   from_ = now_;
   if (share > 0.0)
     for (std::size_t k = 1; k + 1 < now_.size(); ++k) algebra_.combine(from_[k], now_[k], share, now_[k], -share, last_[k]);
 }
 
-// The Kuhn-Tucker residual by the multipliers of the last iteration. Of the path handed out, only pairs that touch have any.
+// The Kuhn-Tucker residual by the multipliers of the last iteration. Of the path handed out, only pairs that touch have any. Forces
+// on planes say nothing about it: moves that end overlaps leave it as it was.
 void HardCurve::judge() {
   const SegmentGapConstraints segments = gaps_.at(now_);
+  if (phase_ == Phase::clears) return;
   const SphereCoordinates& coordinates = gaps_.coordinates();
   const double taken_off = margin * options_.length_unit;
   BendNorms norms(now_.size());
@@ -181,31 +190,44 @@ void HardCurve::judge() {
 Relaxation HardCurve::iterate() {
   set_string();
   solve();
-  const double longest = move();
+  move();
   judge();
-  look_ahead(longest);
+  look_ahead();
   ++phase_iterations_;
   return next_phase();
 }
 
-Relaxation HardCurve::next_phase() {
-  if (phase_ == Phase::tightens) return tightened();
-  if (residual_ < (phase_ == Phase::relaxes ? calm_at_first : calm)) {
-    if (phase_ == Phase::relaxes) begin_phase(Phase::falls);
-    barrier_ = std::max(last_barrier, barrier_decay * barrier_);
-  }
-  const bool at_rest = barrier_ <= last_barrier && residual_ < (phase_ == Phase::settles ? settled : settled_level);
-  const bool ended = at_rest || phase_iterations_ >= most_iterations;
-  if (ended && phase_ == Phase::settles) begin_phase(Phase::tightens);
-  if (!ended || phase_ == Phase::tightens) return Relaxation::continues;
-  return at_rest ? Relaxation::stationary : Relaxation::stopped;
+// Whether a path that relaxes may go on to the next level.
+bool HardCurve::is_calm() {
+  const std::uint64_t most = levels_ <= relaxing_levels ? most_iterations : few_iterations;
+  if (residual_ < calm_at_first || phase_iterations_ >= most) return true;
+  if (phase_iterations_ % progress_iterations != 0) return false;
+  const double length = polyline_length(algebra_, now_);
+  const bool stays = last_length_ > 0.0 && last_length_ - length < least_progress * length;
+  last_length_ = length;
+  return stays;
 }
 
-Relaxation HardCurve::tightened() const {
-  const bool clear = gaps_.smallest_gap() >= -largest_overlap * options_.length_unit;
-  if (clear && residual_ < settled_tight) return Relaxation::stationary;
+Relaxation HardCurve::next_phase() {
+  if (phase_ == Phase::relaxes) return is_calm() ? Relaxation::stationary : Relaxation::continues;
+  if (phase_ == Phase::clears) return cleared();
+  const bool tight = phase_ == Phase::tightens;
+  const double lowest = tight ? tight_barrier : last_barrier;
+  const bool low = barrier_ <= lowest;
+  if (tight)
+    barrier_ = std::max(lowest, tight_decay * barrier_);
+  else if (residual_ < calm || longest_ < calm_move * options_.length_unit)
+    barrier_ = std::max(lowest, barrier_decay * barrier_);
+  const bool at_rest = low && residual_ < (tight ? settled_tight : settled);
+  if (at_rest || phase_iterations_ >= (tight ? most_tight_iterations : most_iterations))
+    begin_phase(tight ? Phase::clears : Phase::tightens);
+  return Relaxation::continues;
+}
+
+Relaxation HardCurve::cleared() const {
+  if (gaps_.smallest_gap() >= -largest_overlap * options_.length_unit)
+    return residual_ < settled_tight ? Relaxation::stationary : Relaxation::stopped;
   if (phase_iterations_ < most_tight_iterations) return Relaxation::continues;
-  if (clear) return Relaxation::stopped;
   throw Error(ErrorCode::goal_not_reached,
               fmt::format("spheres of the path still overlap by {:.3g} sigma, and cannot be moved apart", -gaps_.smallest_gap()));
 }
@@ -225,6 +247,8 @@ void HardCurve::exchange(Archive& archive) {
   phase_ = static_cast<Phase>(phase);
   archive.field("phase_iterations", phase_iterations_);
   archive.field("barrier", barrier_);
+  archive.field("last_length", last_length_);
+  archive.field("levels", levels_);
   archive.field("onward", onward_);
   gaps_.exchange(archive);
 }

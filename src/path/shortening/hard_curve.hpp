@@ -19,10 +19,9 @@ struct HardCurveOptions {
 // the last nodes, as far as they allow (InteriorPoint). Linearised gaps are larger than those of the moved spheres by the square of
 // a move only.
 //
-// At first the path relaxes: the barrier of the gaps stays high, so that contacts form and open while they are soft, and iterations
-// start from nodes ahead of the last ones (Nesterov's momentum), as only long moves along contacts are left. Once the path is calm
-// the barrier falls, and a damping keeps moves short. Nodes may overlap by the square of the last move; tighten() lets the path of
-// the last level settle, and ends overlaps by moves that hardly count.
+// On each level the path relaxes: the barrier of the gaps stays high, so that contacts form and open while they are soft, and
+// iterations start from nodes ahead of the last ones (Nesterov's momentum), as only long moves along contacts are left. On the last
+// level the barrier then falls under a damping that keeps moves short, and tighten() ends overlaps by moves that hardly count.
 class HardCurve final : public CurveRelaxation {
  public:
   // `path` gives the system, and is copied.
@@ -41,19 +40,20 @@ class HardCurve final : public CurveRelaxation {
   void exchange(Archive& archive) override;
 
  private:
-  // In this order. Levels after the first begin where the barrier falls; the last two are of the last level.
-  enum class Phase : std::uint64_t { relaxes, falls, settles, tightens };
+  // In this order; all but the first are of the last level.
+  enum class Phase : std::uint64_t { relaxes, settles, tightens, clears };
 
   HardSpherePath path() const { return {box_, layout_, radii_, metric_, isa_}; }
   void allocate(std::size_t nodes);
   void begin_phase(Phase phase);
   void set_string();
   void solve();
-  double move();
-  void look_ahead(double longest);
+  void move();
+  void look_ahead();
   void judge();
+  bool is_calm();
   Relaxation next_phase();
-  Relaxation tightened() const;
+  Relaxation cleared() const;
 
   Box box_;
   ParticleLayout layout_;
@@ -68,10 +68,12 @@ class HardCurve final : public CurveRelaxation {
 
   Polyline now_, from_, last_;  // the path, where the next iteration starts, and the path before
   double residual_ = 1.0;
-  double barrier_ = 0.0;  // [mean segment squared]
+  double barrier_ = 0.0;      // [mean segment squared]
+  double longest_ = 0.0;      // move of a sphere in the last iteration
+  double last_length_ = 0.0;  // of the path, when its progress was looked at last
   Phase phase_ = Phase::relaxes;
-  std::uint64_t phase_iterations_ = 0, onward_ = 0;  // onward: iterations since one turned back
-  double mean_ = 0.0;                                // length of a segment of from_
+  std::uint64_t levels_ = 0, phase_iterations_ = 0, onward_ = 0;  // onward: iterations since one turned back
+  double mean_ = 0.0;                                             // length of a segment of from_
   std::vector<double> tensions_;
   std::vector<AlignedArray> gradient_, tangents_;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -49,13 +50,24 @@ class InteriorPoint {
   void for_each_inner(const Body& body) const;
   template <class Body>
   void for_each_segment(Segments& segments, const Body& body) const;
+  // What the whole path leaves to do: the mean product of slacks and multipliers, and how much gaps miss their slacks at most.
+  struct State {
+    double product, violation;
+  };
+  State survey(const String& string, Segments& segments);
+  State total(const Segments& segments) const;
   double complementarity(Segments& segments, const Lengths& lengths);
-  void set_rest(const String& string, Segments& segments);
-  void soften(const String& string, std::size_t segment, std::size_t side, AlignedArray& rest) const;
+  void soften(const String& string, std::size_t segment);
+  void clear_pulls(std::size_t segment);
+  void add_pulls(std::size_t node, AlignedArray& out) const;
   double largest_rest() const;
-  double largest_violation(Segments& segments);
-  void assemble(const String& string, const Segments& segments);
+  template <class Add>
+  void second_derivatives(const GapConstraint& gap, std::size_t row, std::size_t column, const Add& add) const;
+  void add_diagonal(const String& string, const Segments& segments, std::size_t node);
+  void set_coupling(const String& string, const Segments& segments, std::size_t segment, BlockTridiagonal::Coupling& out) const;
+  bool factor(const String& string, const Segments& segments);
   Lengths find_step(Segments& segments, double target, bool corrected);
+  Lengths allowed(Segments& segments);
   void take_step(Segments& segments, const Lengths& lengths);
 
   std::size_t inner_, dimension_;
@@ -63,7 +75,8 @@ class InteriorPoint {
   double bulge_ = 0.0;
   BlockTridiagonal matrix_;
   std::vector<AlignedArray> moves_, rest_, step_;
-  std::vector<double> of_segment_;  // partial results, added in one order
+  std::array<std::vector<AlignedArray>, 2> pulls_;  // of each segment on the node before and behind it
+  std::vector<State> of_segment_;                   // partial results, added in one order
 };
 
 }  // namespace lanescape

@@ -47,23 +47,14 @@ class Problem {
   }
 
   // Each element in two parts, and what is below the diagonal not at all or as something that is not a number.
-  void fill(BlockTridiagonal& matrix, bool spoil_below) const {
-    for (std::size_t k = 0; k < blocks_; ++k)
-      for (std::size_t row = 0; row < dimension_; ++row)
-        for (std::size_t column = 0; column < dimension_; ++column) {
-          if (row <= column) {
-            matrix.add(k, row, column, 0.25 * dense_(index(k, row), index(k, column)));
-            matrix.add(k, row, column, 0.75 * dense_(index(k, row), index(k, column)));
-          } else if (spoil_below) {
-            matrix.add(k, row, column, std::numeric_limits<double>::quiet_NaN());
-          }
-          if (k + 1 < blocks_) matrix.add_coupling(k, row, column, dense_(index(k, row), index(k + 1, column)));
-        }
+  BlockTridiagonal::Source source(BlockTridiagonal& matrix, bool spoil_below = false) const {
+    return {[this, &matrix, spoil_below](std::size_t k) { fill_diagonal(matrix, k, spoil_below); },
+            [this](std::size_t k, BlockTridiagonal::Coupling& coupling) { fill_coupling(coupling, k); }};
   }
-  BlockTridiagonal matrix(Isa isa, int threads, bool spoil_below = false) const {
-    BlockTridiagonal result(kernel_table(isa), blocks_, dimension_, threads);
-    fill(result, spoil_below);
-    return result;
+  BlockTridiagonal matrix(Isa isa, int threads) const { return {kernel_table(isa), blocks_, dimension_, threads}; }
+  bool is_factored(Isa isa, int threads) const {
+    BlockTridiagonal result = matrix(isa, threads);
+    return result.factor(source(result));
   }
 
   VectorXd solved(const BlockTridiagonal& factor) const {
@@ -79,13 +70,39 @@ class Problem {
     return result;
   }
   VectorXd solved(Isa isa, int threads, bool spoil_below = false) const {
-    BlockTridiagonal factor = matrix(isa, threads, spoil_below);
-    EXPECT_TRUE(factor.factor());
+    BlockTridiagonal factor = matrix(isa, threads);
+    EXPECT_TRUE(factor.factor(source(factor, spoil_below)));
     return solved(factor);
   }
   VectorXd expected() const { return dense_.ldlt().solve(right_); }
 
  private:
+  void fill_diagonal(BlockTridiagonal& matrix, std::size_t k, bool spoil_below) const {
+    for (std::size_t row = 0; row < dimension_; ++row)
+      for (std::size_t column = 0; column < dimension_; ++column) {
+        if (row <= column)
+          for (const double part : {0.25, 0.75}) matrix.add(k, row, column, part * dense_(index(k, row), index(k, column)));
+        else if (spoil_below)
+          matrix.add(k, row, column, std::numeric_limits<double>::quiet_NaN());
+      }
+  }
+  // The unit matrix, and squares for the rest, the last one in two parts.
+  void fill_coupling(BlockTridiagonal::Coupling& coupling, std::size_t k) const {
+    coupling.unit = 0.5;
+    coupling.x = nullptr;
+    coupling.terms.clear();
+    for (std::size_t row = 0; row < dimension_; row += 3)
+      for (std::size_t column = 0; column < dimension_; column += 3) {
+        const bool halved = row + 3 == dimension_ && column + 3 == dimension_;
+        BlockTridiagonal::Square square;
+        for (std::size_t a = 0; a < 3; ++a)
+          for (std::size_t b = 0; b < 3; ++b) {
+            const double x = dense_(index(k, row + a), index(k + 1, column + b)) - (row + a == column + b ? 0.5 : 0.0);
+            square[a][b] = halved ? 0.5 * x : x;
+          }
+        for (int part = 0; part < (halved ? 2 : 1); ++part) coupling.terms.push_back({row, column, square});
+      }
+  }
   Index index(std::size_t block, std::size_t row) const { return static_cast<Index>(block * dimension_ + row); }
 
   std::size_t blocks_, dimension_;
@@ -96,8 +113,8 @@ class Problem {
 double distance(const VectorXd& a, const VectorXd& b) { return (a - b).norm() / b.norm(); }
 
 // Fewer than a vector, whole tiles and panels, parts of them.
-const std::pair<std::size_t, std::size_t> shapes[] = {{1, 1},  {1, 30}, {2, 7},  {3, 24}, {5, 6},   {8, 6},
-                                                      {8, 41}, {5, 53}, {3, 72}, {2, 50}, {1, 267}, {3, 150}};
+const std::pair<std::size_t, std::size_t> shapes[] = {{1, 3},  {1, 30}, {2, 6},  {3, 24}, {5, 6},   {8, 6},
+                                                      {8, 42}, {5, 54}, {3, 72}, {2, 51}, {1, 267}, {3, 150}};
 
 class BlockTridiagonalOnEveryIsa : public testing::EveryIsa {};
 INSTANTIATE_TEST_SUITE_P(Isas, BlockTridiagonalOnEveryIsa, testing::all_isas(), testing::isa_name);
@@ -124,32 +141,42 @@ TEST_P(BlockTridiagonalOnEveryIsa, IgnoresWhatIsBelowTheDiagonal) {
   }
 }
 
-TEST_P(BlockTridiagonalOnEveryIsa, AddsSquaresOfVectorsToWholeBlocks) {
-  for (const auto& [blocks, dimension] : shapes) {
-    Problem problem(blocks, dimension);
-    BlockTridiagonal factor = problem.matrix(GetParam(), 1);
-    const auto d = static_cast<Index>(dimension), last = static_cast<Index>(blocks - 1);
-    const VectorXd x = VectorXd::LinSpaced(d, -1.0, 1.5);
-    factor.add_square(blocks - 1, 0.3, x.data());
-    problem.dense().block(last * d, last * d, d, d) += 0.3 * x * x.transpose();
-    if (blocks > 1) {
+TEST_P(BlockTridiagonalOnEveryIsa, AddsProductsOfAVectorWithItself) {
+  for (const auto& [blocks, dimension] : shapes)
+    for (const std::size_t coupled : {std::size_t{0}, blocks < 2 ? 0 : blocks - 2}) {  // of either side
+      Problem problem(blocks, dimension);
+      BlockTridiagonal factor = problem.matrix(GetParam(), 1);
+      const auto d = static_cast<Index>(dimension), first = static_cast<Index>(coupled) * d;
+      const VectorXd x = VectorXd::LinSpaced(d, -1.0, 1.5);
       const double little = -0.1 / x.squaredNorm();
-      factor.add_coupling_square(blocks - 2, little, x.data());
-      problem.dense().block((last - 1) * d, last * d, d, d) += little * x * x.transpose();
-      problem.dense().block(last * d, (last - 1) * d, d, d) += little * x * x.transpose();
+      const BlockTridiagonal::Source rest = problem.source(factor);
+      ASSERT_TRUE(factor.factor({[&](std::size_t k) {
+                                   rest.diagonal(k);
+                                   if (k == coupled) factor.add_product(k, 0.3, x.data());
+                                 },
+                                 [&](std::size_t k, BlockTridiagonal::Coupling& coupling) {
+                                   rest.coupling(k, coupling);
+                                   if (k != coupled) return;
+                                   coupling.factor = little;
+                                   coupling.x = x.data();
+                                 }}));
+      const VectorXd solution = problem.solved(factor);
+      problem.dense().block(first, first, d, d) += 0.3 * x * x.transpose();
+      if (coupled + 1 < blocks) {
+        problem.dense().block(first, first + d, d, d) += little * x * x.transpose();
+        problem.dense().block(first + d, first, d, d) += little * x * x.transpose();
+      }
+      EXPECT_LT(distance(solution, problem.expected()), 1e-11) << blocks << " blocks of " << dimension;
     }
-    ASSERT_TRUE(factor.factor());
-    EXPECT_LT(distance(problem.solved(factor), problem.expected()), 1e-11) << blocks << " blocks of " << dimension;
-  }
 }
 
 TEST_P(BlockTridiagonalOnEveryIsa, FindsOutWhereverItIsNotPositiveDefinite) {
   for (const std::size_t block : {0u, 1u, 2u, 3u, 4u})
-    for (const std::size_t row : {0u, 8u, 28u}) {
+    for (const std::size_t row : {0u, 8u, 29u}) {
       for (const double wrong : {-1e-3, 0.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-        Problem problem(5, 29);
+        Problem problem(5, 30);
         problem.diagonal(block, row, row) = wrong;
-        EXPECT_FALSE(problem.matrix(GetParam(), 1).factor()) << wrong << " in row " << row << " of block " << block;
+        EXPECT_FALSE(problem.is_factored(GetParam(), 1)) << wrong << " in row " << row << " of block " << block;
       }
     }
 }
@@ -157,36 +184,37 @@ TEST_P(BlockTridiagonalOnEveryIsa, FindsOutWhereverItIsNotPositiveDefinite) {
 TEST(BlockTridiagonal, IsRefusedBySeveralThreadsToo) {
   for (const std::size_t block : {0u, 2u, 4u})
     for (const int threads : {2, 3}) {
-      Problem problem(5, 29);
-      problem.diagonal(block, 28, 28) = -1.0;
-      EXPECT_FALSE(problem.matrix(available_isas().back(), threads).factor()) << block << " on " << threads;
+      Problem problem(5, 30);
+      problem.diagonal(block, 29, 29) = -1.0;
+      EXPECT_FALSE(problem.is_factored(available_isas().back(), threads)) << block << " on " << threads;
     }
 }
 
 TEST_P(BlockTridiagonalOnEveryIsa, FindsOutThatCouplingsAreTooStrong) {
   for (const std::size_t blocks : {2u, 3u, 8u}) {
     BlockTridiagonal matrix(kernel_table(GetParam()), blocks, 6, 1);
-    for (const double coupling : {0.49, 1.01}) {  // eigenvalues 1 - 2 x 0.49 cos, 1 - 1.01 at most
-      matrix.set_zero();
-      for (std::size_t k = 0; k < blocks; ++k)
-        for (std::size_t i = 0; i < 6; ++i) {
-          matrix.add(k, i, i, 1.0);
-          if (k + 1 < blocks) matrix.add_coupling(k, i, i, coupling);
-        }
-      EXPECT_EQ(matrix.factor(), coupling < 0.5) << blocks;
+    for (const double unit : {0.49, 1.01}) {  // eigenvalues 1 - 2 x 0.49 cos, 1 - 1.01 at most
+      const auto add_unit = [&](std::size_t k) {
+        for (std::size_t i = 0; i < 6; ++i) matrix.add(k, i, i, 1.0);
+      };
+      EXPECT_EQ(matrix.factor({add_unit, [&](std::size_t, BlockTridiagonal::Coupling& coupling) { coupling.unit = unit; }}),
+                unit < 0.5)
+          << blocks;
     }
   }
 }
 
 TEST_P(BlockTridiagonalOnEveryIsa, BeginsAnewAfterAFailureAsIfNothingHadHappened) {
-  Problem problem(5, 29);
+  Problem problem(5, 30);
   const VectorXd expected = problem.solved(GetParam(), 1);
   BlockTridiagonal matrix = problem.matrix(GetParam(), 1);
-  matrix.add(1, 3, 3, -1e6);
-  EXPECT_FALSE(matrix.factor());
-  matrix.set_zero();
-  problem.fill(matrix, false);
-  EXPECT_TRUE(matrix.factor());
+  const BlockTridiagonal::Source source = problem.source(matrix);
+  EXPECT_FALSE(matrix.factor({[&](std::size_t k) {
+                                source.diagonal(k);
+                                if (k == 1) matrix.add(1, 3, 3, -1e6);
+                              },
+                              source.coupling}));
+  EXPECT_TRUE(matrix.factor(source));
   EXPECT_EQ(problem.solved(matrix), expected);
   EXPECT_EQ(problem.solved(matrix), expected);  // solve() leaves the factor alone
 }

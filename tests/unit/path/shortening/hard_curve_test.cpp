@@ -166,7 +166,7 @@ TEST(HardCurve, MakesPathsOfSmallFluidsStationaryAndAboutAsShortAsTheReferenceDo
 }
 
 TEST(HardCurve, RefusesMoreSpheresThanItsMatricesHaveMemoryFor) {
-  const std::size_t count = 6000;
+  const std::size_t count = 8000;
   const Box box{{1000.0, 1000.0, 1000.0}};
   const ParticleLayout layout(std::vector<int>(count, 0), 1);
   const KinematicMetric metric(hard_sphere(), layout);
@@ -177,7 +177,7 @@ TEST(HardCurve, RefusesMoreSpheresThanItsMatricesHaveMemoryFor) {
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::bad_input);
-    EXPECT_NE(std::string(error.what()).find("6000 hard spheres"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("8000 hard spheres"), std::string::npos) << error.what();
   }
 }
 
