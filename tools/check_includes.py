@@ -32,7 +32,8 @@ SHARED_VOCABULARY = {("src/core/error.hpp", "lanescape/error.hpp"), ("src/verifi
 SEES_KERNEL_TABLE = {"dispatch", "neighbour", "interaction", "dynamics", "verification"}
 SEEN_OF_KERNELS = ("views/", "pair_forms.hpp")
 SEES_REFERENCE = {"verification"}
-# The program starts runs, reads files, averages results and verifies; landscapes, dynamics, steppers and paths reach it through run/ only.
+# The program starts runs, reads files, averages results and verifies; dynamics, steppers and paths reach it through run/ only, and
+# landscapes but for the one of an engine.
 PROGRAM_STAGES = {"core", "configuration", "io", "dispatch", "insertion", "interaction", "landscape", "observables", "run",
                   "verification"}
 

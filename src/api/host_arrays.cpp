@@ -78,16 +78,24 @@ void HostArrays::write_gradient(std::span<double> host) const {
     for (std::size_t axis = 0; axis < 3; ++axis) host[3 * i + axis] = slots[axis * stride + layout_.slot_of(i)];
 }
 
-void HostArrays::write_forces(const Vectors<double>& host) const {
+template <class Put>
+void HostArrays::for_each_force(const Vectors<double>& host, Put put) const {
   const double *const x = gradient_.data(), *const y = x + layout_.slots(), *const z = y + layout_.slots();
   for (std::size_t i = 0; i < layout_.size(); ++i) {
     const auto k = static_cast<std::ptrdiff_t>(i) * host.stride;
     const std::size_t slot = layout_.slot_of(i);
-    // Of no force this makes 0, not -0.
-    host.x[k] = 0.0 - x[slot];
-    host.y[k] = 0.0 - y[slot];
-    host.z[k] = 0.0 - z[slot];
+    put(host.x[k], x[slot]);
+    put(host.y[k], y[slot]);
+    put(host.z[k], z[slot]);
   }
+}
+
+void HostArrays::write_forces(const Vectors<double>& host) const {
+  for_each_force(host, [](double& force, double gradient) { force = 0.0 - gradient; });  // of no force 0, not -0
+}
+
+void HostArrays::add_forces(const Vectors<double>& host) const {
+  for_each_force(host, [](double& force, double gradient) { force -= gradient; });
 }
 
 }  // namespace lanescape

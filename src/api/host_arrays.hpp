@@ -33,9 +33,14 @@ class HostArrays {
   // Writes dV/dr, or -dV/dr, of the array above to the host; there is room.
   void write_gradient(std::span<double> host) const;
   void write_forces(const Vectors<double>& host) const;
+  void add_forces(const Vectors<double>& host) const;
   void write_energies(std::span<double> host) const;
 
  private:
+  // put(component of the host's, of the gradient)
+  template <class Put>
+  void for_each_force(const Vectors<double>& host, Put put) const;
+
   ParticleLayout layout_;
   AlignedArray positions_, gradient_, energies_;
 };

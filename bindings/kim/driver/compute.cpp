@@ -33,7 +33,7 @@ int create_arguments(const KIM::ModelCompute* model, KIM::ModelComputeArgumentsC
   for (const auto& name : {names::partialEnergy, names::partialForces, names::partialParticleEnergy, names::partialVirial})
     if (arguments->SetArgumentSupportStatus(name, KIM::SUPPORT_STATUS::optional) != 0) return 1;
   try {
-    arguments->SetModelBufferPointer(new ListedParticles(driver->model, driver->units));
+    arguments->SetModelBufferPointer(new SimulatedParticles(driver->model, driver->units));
   } catch (const std::exception& error) {
     arguments->LogEntry(KIM::LOG_VERBOSITY::error, std::string("lanescape: ") + error.what(), __LINE__, __FILE__);
     return 1;
@@ -42,7 +42,7 @@ int create_arguments(const KIM::ModelCompute* model, KIM::ModelComputeArgumentsC
 }
 
 int compute(const KIM::ModelCompute*, const KIM::ModelComputeArguments* arguments) {
-  ListedParticles* listed = nullptr;
+  SimulatedParticles* listed = nullptr;
   arguments->GetModelBufferPointer(reinterpret_cast<void**>(&listed));
   try {
     listed->evaluate(particles_of(*arguments),
@@ -56,7 +56,7 @@ int compute(const KIM::ModelCompute*, const KIM::ModelComputeArguments* argument
 }
 
 int destroy_arguments(const KIM::ModelCompute*, KIM::ModelComputeArgumentsDestroy* arguments) {
-  ListedParticles* listed = nullptr;
+  SimulatedParticles* listed = nullptr;
   arguments->GetModelBufferPointer(reinterpret_cast<void**>(&listed));
   delete listed;
   return 0;

@@ -41,7 +41,7 @@ std::unique_ptr<PairDriver> make(const KIM::ModelDriverCreate& create, const KIM
   const lanescape::Model model = read_model(create);
   const Units units{factor(length, energy, 1.0, 0.0), factor(length, energy, 0.0, 1.0)};
   const double reach = model.largest_cutoff() * units.length;
-  const ListedParticles checked(model, units);  // throws for what such a potential cannot be
+  const SimulatedParticles checked(model, units);  // throws for what such a potential cannot be
   return std::make_unique<PairDriver>(PairDriver{model, units, reach, 0.25 * reach});
 }
 

@@ -23,9 +23,9 @@ struct Particles {
 
 // A potential over the particles of one simulator, with lists of its own. The simulator has lists too, but nobody says when they
 // change: to compare them with the last ones takes longer than to look for neighbours once a particle has moved far enough.
-class ListedParticles {
+class SimulatedParticles {
  public:
-  ListedParticles(const lanescape::Model& model, const Units& units);
+  SimulatedParticles(const lanescape::Model& model, const Units& units) : units_(units), potential_(model) {}
 
   struct Outputs {
     double *energy, *forces, *energies, *virial;  // null: not wanted
@@ -36,20 +36,10 @@ class ListedParticles {
  private:
   // Positions in the library's unit.
   std::span<const double> positions_of(const Particles& particles);
-  // Whether the lists have all neighbours of these: the same particles, none farther than half the skin from where it was.
-  bool lists_last(const Particles& particles, std::span<const double> positions) const;
-  void find_neighbours(const Particles& particles, std::span<const double> positions);
 
   Units units_;
-  double skin_;
-  lanescape::ListedPotential potential_;
-  lanescape::NeighbourFinder finder_;
-  // Of the last lists.
-  std::vector<double> listed_at_;
-  std::vector<int> species_, contributing_, rows_;
-  std::vector<int> neighbours_, lengths_;
-  std::vector<const int*> lists_;
-  std::vector<double> scaled_, own_;
+  lanescape::DomainPotential potential_;
+  std::vector<double> scaled_;
 };
 
 }  // namespace lanescape_kim

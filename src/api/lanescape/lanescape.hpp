@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <lanescape/version.h>
+#include <lanescape/domain_potential.hpp>
 #include <lanescape/dynamics.hpp>
 #include <lanescape/error.hpp>
 #include <lanescape/hard_spheres.hpp>

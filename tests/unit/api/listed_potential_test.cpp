@@ -209,6 +209,65 @@ TEST(ListedPotential, LeavesOutWhatInteractsWithNothing) {
   }
 }
 
+std::vector<int> marks(const Host& host) {
+  std::vector<int> in_domain(host.species.size(), 0);
+  for (const int row : host.rows) in_domain[static_cast<std::size_t>(row)] = 1;
+  return in_domain;
+}
+
+TEST(DomainPotential, EqualsTheListedPotentialWhileParticlesMove) {
+  Configuration c = liquid("ka_melted_144.extxyz");
+  for (const std::string& isa : instruction_sets())
+    for (const int threads : {1, 2}) {
+      SCOPED_TRACE(isa);
+      DomainPotential domain(kob_andersen_plain(), {.threads = threads, .instruction_set = isa});
+      ListedPotential listed(kob_andersen_plain(), {.lists = ListedPotential::Lists::gradient});
+      Host host(c, reach, 20, 90);
+      domain.set_particles(host.species, marks(host));
+      for (int step = 0; step < 6; ++step) {
+        listed.set_lists(host.view());
+        const Result expected = evaluate(listed, host);
+        Result r{{}, std::vector<double>(host.positions.size(), 7.0), std::vector<double>(host.species.size(), 7.0)};
+        r.e = domain.evaluate(Vectors<const double>::interleaved(host.positions),
+                              {.forces = Vectors<double>::interleaved(r.forces), .energies = r.energies, .stress = step % 2 == 0});
+        EXPECT_NEAR(r.e.energy, expected.e.energy, 1e-12 * std::fabs(expected.e.energy));
+        EXPECT_NEAR(r.e.virial, expected.e.virial, 1e-11 * std::fabs(expected.e.virial));
+        for (std::size_t k = 0; step % 2 == 0 && k < 6; ++k)
+          EXPECT_NEAR(r.e.virial_tensor[k], expected.e.virial_tensor[k], 1e-11 * std::fabs(expected.e.virial));
+        for (std::size_t k = 0; k < r.forces.size(); ++k) EXPECT_NEAR(r.forces[k], expected.forces[k], 1e-10);
+        for (std::size_t k = 0; k < r.energies.size(); ++k) EXPECT_NEAR(r.energies[k], expected.energies[k], 1e-11);
+        std::vector<double> sum = r.forces;
+        domain.evaluate(Vectors<const double>::interleaved(host.positions),
+                        {.energy = false, .forces = Vectors<double>::interleaved(sum), .add_to_forces = true});
+        for (std::size_t k = 0; k < sum.size(); ++k) EXPECT_NEAR(sum[k], 2.0 * r.forces[k], 1e-12 * std::fabs(sum[k]));
+        // Far, so that lists and the box around the particles are made again; the lists above hold all pairs within 2.8.
+        for (double& x : host.positions) x += 0.03 * std::sin(1e3 * x) + 1.5 * step;
+      }
+    }
+}
+
+TEST(DomainPotential, TakesOtherParticles) {
+  const Configuration c = liquid("ka_melted_144.extxyz");
+  DomainPotential domain(kob_andersen_plain());
+  EXPECT_EQ(domain.evaluate(Vectors<const double>{}, {}).energy, 0.0);
+  double sum = 0.0;
+  for (const auto& [first, last] : {std::pair<std::size_t, std::size_t>{0, 50}, {50, c.size()}}) {
+    const Host host(c, reach, first, last);
+    domain.set_particles(host.species, marks(host));
+    ASSERT_EQ(domain.particles(), host.species.size());
+    sum += domain.evaluate(Vectors<const double>::interleaved(host.positions), {}).energy;
+  }
+  const double expected = evaluate_reference(reference_model(), c).energy;
+  EXPECT_NEAR(sum, expected, 1e-12 * std::fabs(expected));
+  EXPECT_NE(refusal([&] {
+              domain.set_particles(std::vector<int>{0, 2}, std::vector<int>{1, 1});
+            }).find("species 2"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] { domain.set_particles(std::vector<int>{0, 1}, std::vector<int>{1}); }).find("marks"), std::string::npos);
+  EXPECT_NE(refusal([] { DomainPotential(Model::named("kob-andersen", {.truncation = "tail"})); }).find("plain"),
+            std::string::npos);
+}
+
 TEST(ListedPotential, HasCutoffsOfTheModelInItsUnit) {
   const Model argon = Model::mixture({.species = {{"Ar"}}, .epsilon = {0.0104}, .sigma = {3.4}, .cutoff = 2.5});
   EXPECT_DOUBLE_EQ(ListedPotential(argon).cutoff(0, 0), 8.5);
