@@ -80,7 +80,8 @@ module lanescape_end_point_pairs
 contains
 
   ! From a configuration such as a start's: species from 1, positions (3, N); diameters: of each particle, for models that have them.
-  ! lanescape_goal_not_reached if the temperature does not hold, the distance is not reached, or progress ends the work.
+  ! lanescape_goal_not_reached if the temperature does not hold or the distance is not reached, lanescape_interrupted if progress
+  ! ends the work.
   subroutine make(self, model, species, positions, box, settings, diameters, stat, errmsg)
     class(lanescape_end_points), intent(inout) :: self
     class(lanescape_model), intent(in) :: model

@@ -4,7 +4,7 @@
 ! hold when they go out of scope. Lengths, energies and masses are in any consistent units; k_B = 1.
 module lanescape
   use lanescape_objects, only: lanescape_bad_input, lanescape_callback_error, lanescape_callback_failed, &
-    lanescape_goal_not_reached, lanescape_internal, lanescape_ok, lanescape_version
+    lanescape_goal_not_reached, lanescape_internal, lanescape_interrupted, lanescape_ok, lanescape_version
   use lanescape_models
   use lanescape_potentials, only: lanescape_potential
   use lanescape_monte_carlo

@@ -10,7 +10,7 @@ module lanescape_objects
   integer, parameter, public :: dp = c_double
   ! Values of stat.
   integer, parameter, public :: lanescape_ok = 0, lanescape_goal_not_reached = 1, lanescape_bad_input = 2, lanescape_internal = 3
-  integer, parameter, public :: lanescape_callback_failed = 4
+  integer, parameter, public :: lanescape_interrupted = 4, lanescape_callback_failed = 5
 
   abstract interface
     integer(c_int) function destroy_c(handle) bind(c)

@@ -41,7 +41,7 @@ void run_protocol(Generator& generator, const EndPointSettings& settings, double
     if (!settings.progress) continue;
     const double pairs = static_cast<double>(generator.pairs().size()) + std::min(1.0, generator.distance_so_far() / distance);
     if (!settings.progress(std::min(1.0, pairs / static_cast<double>(settings.pairs))) && !generator.ended())
-      throw Error(ErrorCode::goal_not_reached, "interrupted before all end points were made");
+      throw Error(ErrorCode::interrupted, "interrupted before all end points were made");
   }
   if (generator.phase() != Generator::Phase::done)
     throw Error(ErrorCode::goal_not_reached, fmt::format("no end points: {}", Generator::name(generator.phase())));

@@ -181,14 +181,14 @@ struct Ending {
   bool out_of_time = false;
 };
 
-// How a child ended. Throws Error(goal_not_reached) where somebody has interrupted it.
+// How a child ended. Throws Error(interrupted) where somebody has interrupted it.
 Ending wait_for(pid_t child) {
   int status = 0;
   while (waitpid(child, &status, 0) < 0)
     if (errno != EINTR) throw std::system_error(errno, std::generic_category(), "waitpid");
   if (!WIFSIGNALED(status)) return {fmt::format("ended the process with exit status {}", WEXITSTATUS(status))};
   const int number = WTERMSIG(status);
-  if (number == SIGINT || number == SIGTERM) throw Error(ErrorCode::goal_not_reached, "interrupted: no result is printed");
+  if (number == SIGINT || number == SIGTERM) throw Error(ErrorCode::interrupted, "interrupted: no result is printed");
   if (number == SIGALRM) return {fmt::format("did not return within {} s", seconds_per_case), true};
   return {fmt::format("crashed with {} ({})",
                       sigabbrev_np(number) == nullptr ? "a signal" : fmt::format("SIG{}", sigabbrev_np(number)),

@@ -158,7 +158,7 @@ static void end_points_are_made(void) {
   REFUSED(lanescape_end_points_count(ends, &pairs), "it was destroyed");
   settings.progress = stop;
   settings.progress_user = NULL;
-  CHECK(lanescape_make_end_points(model, particles, species, positions, box, NULL, &settings, &ends) == LANESCAPE_GOAL_NOT_REACHED);
+  CHECK(lanescape_make_end_points(model, particles, species, positions, box, NULL, &settings, &ends) == LANESCAPE_INTERRUPTED);
   CHECK(strstr(lanescape_last_error(), "interrupted") != NULL && ends == NULL);
   lanescape_model* soft = named_model("lennard-jones");
   settings.threads = 0;

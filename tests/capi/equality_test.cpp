@@ -11,6 +11,11 @@
 namespace lanescape {
 namespace {
 
+static_assert(LANESCAPE_GOAL_NOT_REACHED == static_cast<int>(ErrorCode::goal_not_reached));
+static_assert(LANESCAPE_BAD_INPUT == static_cast<int>(ErrorCode::bad_input));
+static_assert(LANESCAPE_INTERNAL == static_cast<int>(ErrorCode::internal));
+static_assert(LANESCAPE_INTERRUPTED == static_cast<int>(ErrorCode::interrupted));
+
 constexpr std::size_t particles = 108;
 
 struct Handles {

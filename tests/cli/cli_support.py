@@ -21,7 +21,7 @@ PROGRAM, DATA = str(Path(sys.argv.pop(1)).resolve()), Path(sys.argv.pop(1)).reso
 EXAMPLES = Path(__file__).resolve().parents[2] / "docs" / "examples"
 
 SUBCOMMANDS = ("info", "energy", "overlap", "endpoints", "path", "shorten", "diffusion", "insert", "slab", "verify", "cases", "check")
-COMMON_OPTIONS = ("--help", "--seed", "--threads", "--isa", "--quiet", "--config", "--out", "--resume")
+COMMON_OPTIONS = ("--help", "--seed", "--threads", "--isa", "--quiet", "--config", "--out", "--resume", "--resume-or-start")
 
 # A liquid small and short enough for a test. Eight particles with the nearest image take 10^6 steps in half a second.
 PROTOCOL = ("--melt-steps", "500", "--cooling-steps", "500", "--check-steps", "500", "--check-tolerance", "50",
@@ -150,8 +150,8 @@ class ProgramTest(unittest.TestCase):
 
 
 class InterruptionTest(ProgramTest):
-    def start(self, *arguments, out):
-        process = subprocess.Popen([PROGRAM, *map(str, arguments), "--out", str(out)], stdin=subprocess.DEVNULL,
+    def start(self, *arguments, out, into="--out"):
+        process = subprocess.Popen([PROGRAM, *map(str, arguments), into, str(out)], stdin=subprocess.DEVNULL,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment())
         self.addCleanup(lambda: (process.poll() is None and process.kill(), process.communicate()))
         return process
@@ -164,15 +164,16 @@ class InterruptionTest(ProgramTest):
             time.sleep(0.005)
         self.fail(f"{file} never came")
 
-    def interrupt(self, *arguments, out, after="run.toml", with_signal=signal.SIGTERM, seconds=0.1):
+    def interrupt(self, *arguments, out, into="--out", after="run.toml", with_signal=signal.SIGTERM, seconds=0.1):
         """Interrupts a run the given number of seconds after it has created a file in its folder."""
-        process = self.start(*arguments, out=out)
+        process = self.start(*arguments, out=out, into=into)
         self.wait_for(process, out / after)
         time.sleep(seconds)
         process.send_signal(with_signal)
         stdout, stderr = process.communicate(timeout=30)
-        self.assertEqual((process.returncode, stderr), (1, ""))
+        self.assertEqual((process.returncode, stderr), (4, ""))
         result = one_object(stdout)
+        self.assertEqual(result["exit_status"], 4)
         self.assertEqual(result, one_object((out / "result.json").read_text()))
         return result
 

@@ -3,13 +3,16 @@
 Usage: host_kernels_test.py PROGRAM DATA_DIR FOLDER_OF_LIBRARIES [unittest arguments]
 """
 
+import os
+import signal
+import subprocess
 import sys
 import time
 import unittest
 import xml.etree.ElementTree
 from pathlib import Path
 
-from cli_support import DATA, ProgramTest, lanescape
+from cli_support import DATA, PROGRAM, ProgramTest, lanescape
 
 LIBRARIES = Path(sys.argv.pop(1))
 DOUBLE, SINGLE = LIBRARIES / "host_kernels.so", LIBRARIES / "host_kernels_single.so"
@@ -102,6 +105,14 @@ class WrongKernels(HostTest):
         messages = [f["message"] for f in self.wrong("never_returns", says=("did not return within",))["failures"]]
         self.assertLess(time.monotonic() - start, 20)
         self.assertEqual([sum(words in m for m in messages) for words in ("did not return within", "was not called")], [3, len(messages) - 3])
+
+    def test_an_interruption_prints_no_result(self):
+        process = subprocess.Popen([PROGRAM, "verify", "--library", str(DOUBLE), "--symbol", "never_returns"], stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True, start_new_session=True)
+        time.sleep(1.0)
+        os.killpg(process.pid, signal.SIGINT)  # as a terminal does
+        stdout, stderr = process.communicate(timeout=20)
+        self.assertEqual((process.returncode, stdout, stderr), (4, "", "lanescape: interrupted: no result is printed\n"))
 
     def test_nan_is_a_failure_that_names_particle_and_component(self):
         result = self.wrong("gives_nan", says=("force on particle 5 (from 0), y", "got nan"))

@@ -182,6 +182,6 @@ contains
     call expect(.not. path%reached .and. path%outcome == "interrupted", "it can be ended")
     settings%progress => report
     call ends%make(model, species, positions, box, settings, stat=stat, errmsg=errmsg)
-    call expect(stat == lanescape_goal_not_reached, "so can the making of end points")
+    call expect(stat == lanescape_interrupted, "so can the making of end points")
   end subroutine progress_ends_work
 end program events_test

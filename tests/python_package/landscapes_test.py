@@ -112,6 +112,9 @@ class PathTest(unittest.TestCase):
             self.path_of_model(progress=lambda part: 1 / 0)
         with self.assertRaises(TypeError):
             self.path_of_model(progress=3)
+        start = lanescape.make_start(lanescape.Model.named("kob-andersen"), 108, 1.2)
+        with self.assertRaisesRegex(lanescape.InterruptedRunError, "^interrupted before all end points were made$"):
+            lanescape.make_end_points(lanescape.Model.named("kob-andersen"), start, quick=True, progress=lambda part: False)
 
     def test_unfit_ends_and_options_are_refused(self):
         for bad in ({"method": "avoidance"}, {"method": "straight"}, {"step": -1.0}, {"landscape_energy": -1e9}, {"frames": 10**9},

@@ -133,9 +133,9 @@ Json run_diffusion_command(DiffusionState& state, Options& options, int& status)
   result["particles"] = start.size();
   result["isa"] = to_string(isa);
   if (!hard) result["precision"] = to_string(state.system.resolve_precision());
-  status = run.interrupted || !run.equilibrated ? goal_not_reached : done;
+  status = status_of_run(run.equilibrated, run.interrupted);
   if (folder.exists()) write_curves(folder, run.diffusion, mixture_of(model));
-  write_result(folder, "diffusion", options.resolved(), result);
+  write_result(folder, "diffusion", options.resolved(), result, status);
   if (state.plot) draw_plots(folder.path(), status);
   return result;
 }

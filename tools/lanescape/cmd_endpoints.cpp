@@ -24,8 +24,8 @@ Json run_endpoints(EndPointsState& state, Options& options, int& status) {
   EndPoints ends = make_end_points(model, start, protocol, isa, folder, state.common, state.system.resolve_precision());
   if (traits_of(model).has_precision) ends.json["precision"] = to_string(state.system.resolve_precision());
   if (state.setup.radius_factor()) ends.json["radius_factor"] = *state.setup.radius_factor();
-  status = ends.reached ? done : goal_not_reached;
-  write_result(folder, "endpoints", options.resolved(), ends.json);
+  status = status_of_run(ends.reached, ends.run.interrupted);
+  write_result(folder, "endpoints", options.resolved(), ends.json, status);
   return ends.json;
 }
 

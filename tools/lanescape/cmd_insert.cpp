@@ -106,11 +106,11 @@ Json run_into_file(InsertState& state, Options& options, const PairModel& model,
   folder.write_run_file("insert", options.resolved());
   TerminalMonitor monitor(state.common.quiet);
   const InsertionRunResult run = run_insertion(model, std::move(fluid), with, isa, monitor);
-  const Json result = to_json(run, with);
-  status = run.interrupted || run.failures > 0 ? goal_not_reached : done;
+  Json result = to_json(run, with);
+  status = status_of_run(run.failures == 0, run.interrupted);
   if (!run.insertions.empty() || !run.removals.empty())
     folder.write("inserted.extxyz", [&](std::ostream& out) { write_frame(out, run.fluid, model, {}); });
-  write_result(folder, "insert", options.resolved(), result);
+  write_result(folder, "insert", options.resolved(), result, status);
   return result;
 }
 

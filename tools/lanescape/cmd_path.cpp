@@ -111,26 +111,30 @@ PathInput read_input(PathState& state, const AnyModel& model, Isa isa) {
   return input;
 }
 
-// The paths found, in JSON; whether all reached their goal.
-bool add_paths(Json& json, const std::vector<PathResult>& paths, const PathMethod& method, const Mixture& mixture) {
+void add_paths(Json& json, const std::vector<PathResult>& paths, const PathMethod& method, const Mixture& mixture) {
   json["paths"] = Json::array();
   for (const PathResult& path : paths) json["paths"].push_back(path_json(path, method, mixture));
   add_mean(json, paths);
-  return std::all_of(paths.begin(), paths.end(), [](const PathResult& path) { return path.outcome == Outcome::reached; });
 }
 
 // The pairs to find paths between: made here, kept from an interrupted run, or from files, of which the folder keeps copies.
 struct Ends {
   std::vector<ConfigurationPair> pairs;
   Json json;  // of end points made here
-  bool all = true;
+  bool all = true, interrupted = false;
 };
+
+ExitStatus status_of(const Ends& ends, const std::vector<PathResult>& paths) {
+  const auto ended = [](Outcome outcome) { return [=](const PathResult& path) { return path.outcome == outcome; }; };
+  return status_of_run(ends.all && std::all_of(paths.begin(), paths.end(), ended(Outcome::reached)),
+                       ends.interrupted || std::any_of(paths.begin(), paths.end(), ended(Outcome::interrupted)));
+}
 
 Ends take_ends(const PathState& state, const AnyModel& model, PathInput&& input, Precision precision, Isa isa,
                OutputFolder& folder) {
   if (state.pair_files.empty()) {
     EndPoints made = make_end_points(model, input.start, input.protocol, isa, folder, state.common, precision);
-    return {std::move(made.run.pairs), std::move(made.json), made.reached};
+    return {std::move(made.run.pairs), std::move(made.json), made.reached, made.run.interrupted};
   }
   if (!state.common.resume.empty()) return {read_kept_pairs(folder, model, state.setup.overlap_tolerance()), Json(), true};
   for (std::size_t k = 0; k < input.pairs.size(); ++k) write_pair(folder, k, input.pairs[k], mixture_of(model));
@@ -202,12 +206,12 @@ Json run_path(PathState& state, Options& options, int& status) {
     paths = run_paths(model, ends.pairs, path_options, isa, {folder.checkpoints(), !state.common.resume.empty()}, monitor,
                       landscape_of(engine.get(), model, isa));
   }
-  const bool all_reached = add_paths(result, paths, *path_options.method, mixture_of(model)) && ends.all;
+  add_paths(result, paths, *path_options.method, mixture_of(model));
   add_system(result, state.system, model, radius_factor(state, ends.pairs), isa);
   if (engine) result["landscape"] = {{"engine", state.landscape}, {"units", engine->units()}};
-  status = all_reached ? done : goal_not_reached;
+  status = status_of(ends, paths);
   if (folder.exists()) write_files(folder, paths, path_options, mixture_of(model));
-  write_result(folder, "path", options.resolved(), result);
+  write_result(folder, "path", options.resolved(), result, status);
   if (state.plot) draw_plots(folder.path(), status);
   return result;
 }

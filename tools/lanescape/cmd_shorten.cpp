@@ -202,9 +202,9 @@ Json run_shortening(ShortenState& state, Options& options, int& status) {
                                               {folder.checkpoints(), !state.common.resume.empty()}, monitor);
   Json result = to_json(shortened, path_method, mixture_of(model));
   add_system(result, state.system, model, input.pair.radius_factor, isa);
-  status = shortened.outcome == Outcome::reached ? done : goal_not_reached;
+  status = status_of_run(shortened.outcome == Outcome::reached, shortened.outcome == Outcome::interrupted);
   if (folder.exists()) write_files(folder, shortened, state, model, isa);
-  write_result(folder, "shorten", options.resolved(), result);
+  write_result(folder, "shorten", options.resolved(), result, status);
   if (state.plot) draw_plots(folder.path(), status);
   return result;
 }

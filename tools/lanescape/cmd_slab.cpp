@@ -53,12 +53,12 @@ Json run_slab_command(SlabState& state, Options& options, int& status) {
   result["model"] = model.name;
   result["particles"] = state.slab.particles;
   result["isa"] = to_string(isa);
-  status = run.interrupted ? goal_not_reached : done;
+  status = status_of_run(true, run.interrupted);
   write_table(folder, "profiles.csv", profiles);
   folder.write("last.extxyz", [&](std::ostream& out) {
     write_frame(out, run.last, model, {{"temperature", fmt::format("{}", state.slab.temperature)}});
   });
-  write_result(folder, "slab", options.resolved(), result);
+  write_result(folder, "slab", options.resolved(), result, status);
   if (state.plot) draw_plots(folder.path(), status);
   return result;
 }

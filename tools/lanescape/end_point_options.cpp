@@ -158,7 +158,7 @@ Configuration EndPointSetup::hard_start(const HardSphereModel& hard, const Commo
   TerminalMonitor monitor(common.quiet);
   const auto made = make_hard_sphere_start(hard, particles_, packing_fraction_.value_or(0.5),
                                            parse_start_method(start_method_.value_or("auto")), common.seed, isa, monitor);
-  if (!made) throw Error(ErrorCode::goal_not_reached, "interrupted while the start was made");
+  if (!made) throw Error(ErrorCode::interrupted, "interrupted while the start was made");
   return *made;
 }
 

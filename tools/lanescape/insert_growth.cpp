@@ -66,10 +66,10 @@ Json run_growth(InsertState& state, const Options& options, const PairModel& mod
   result["particles"] = run.final_state.configuration.size();
   result["outcome"] = run.interrupted ? "interrupted" : run.failures > 0 ? "limit of trials" : "done";
   result["seconds"] = run.seconds;
-  status = run.interrupted || run.failures > 0 ? goal_not_reached : done;
+  status = status_of_run(run.failures == 0, run.interrupted);
   write_table(folder, "densification.csv", rows);
   folder.write("inserted.extxyz", [&](std::ostream& out) { write_frame(out, run.final_state.configuration, model, {}); });
-  write_result(folder, "insert", options.resolved(), result);
+  write_result(folder, "insert", options.resolved(), result, status);
   return result;
 }
 

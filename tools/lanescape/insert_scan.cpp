@@ -107,12 +107,12 @@ Json run_scan(InsertState& state, const Options& options, const PairModel& model
   result["failures"] = failures;
   result["outcome"] = run.interrupted ? "interrupted" : failures > 0.0 ? "limit of trials" : "done";
   result["seconds"] = run.seconds;
-  status = run.interrupted || failures > 0.0 ? goal_not_reached : done;
+  status = status_of_run(!(failures > 0.0), run.interrupted);
   write_table(folder, "scan.csv", costs);
   write_table(folder, "states.csv", states);
   write_table(folder, "holes.csv", holes);
   write_table(folder, "errors.csv", table_of(run.errors, row));
-  write_result(folder, "insert", options.resolved(), result);
+  write_result(folder, "insert", options.resolved(), result, status);
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "lanescape/lanescape.hpp"
 #include "program.hpp"
+#include "resume_or_start.hpp"
 #include "run_file.hpp"
 
 namespace {
@@ -21,19 +22,32 @@ void complain(std::string message) {
   std::cerr << "lanescape: " << message << '\n';
 }
 
-int run(std::vector<std::string> arguments) {
+// Prints a result; the exit status that follows.
+int printed(const std::string& result, int status) {
+  std::cout << result << std::flush;
+  if (std::cout) return status;
+  complain("stdout: the result cannot be written");
+  return internal_error;
+}
+
+int run(const std::vector<std::string>& arguments) {
   CLI::App app("Landscape geodesics of liquids and the kernels beneath them. Results are one JSON object on stdout.", "lanescape");
   app.set_version_flag("--version", version());
   app.require_subcommand(1);
   app.get_formatter()->column_width(34);
+  app.footer(
+      "Exit status: 0 done, 1 the goal was not reached or figures failed, 2 bad input, 3 a defect,\n"
+      "4 interrupted by SIGINT or SIGTERM: --resume continues.");
   const std::vector<Subcommand> subcommands = {add_info(app), add_energy(app),  add_overlap(app),   add_endpoints(app),
                                                add_path(app), add_shorten(app), add_diffusion(app), add_insert(app),
                                                add_slab(app), add_verify(app),  add_cases(app),     add_check(app)};
   try {
-    arguments = with_run_file(arguments, app);
+    CommandLine line = with_run_file(arguments, app);
     // CLI11 takes arguments in reverse.
-    std::reverse(arguments.begin(), arguments.end());
-    app.parse(arguments);
+    std::reverse(line.arguments.begin(), line.arguments.end());
+    app.parse(line.arguments);
+    if (const auto finished = line.begun.empty() ? std::nullopt : finished_run(line.begun))
+      return printed(finished->result, finished->status);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help and --version
     complain(fmt::format("{} (see --help)", error.what()));
@@ -45,10 +59,7 @@ int run(std::vector<std::string> arguments) {
     int status = done;
     const Json result = subcommand.run(status);
     if (result.is_null()) return status;  // of a process that has served another one
-    std::cout << text_of_result(result) << std::endl;
-    if (std::cout) return status;
-    complain("stdout: the result cannot be written");
-    return internal_error;
+    return printed(text_of_result(result) + '\n', status);
   }
   return internal_error;
 }

@@ -126,6 +126,10 @@ void Options::add_unsaved(const std::string& name, bool& value, const std::strin
   app_->add_flag(name, value, description);
 }
 
+void Options::exclude(const std::string& one, const std::string& other) {
+  app_->get_option(one)->excludes(app_->get_option(other));
+}
+
 void Options::add_synonym_of_default(const std::string& name, const std::string& description) {
   app_->add_flag_function(name, [](std::int64_t) {}, description)->disable_flag_override();
 }

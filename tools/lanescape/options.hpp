@@ -95,6 +95,8 @@ class Options {
   // Options that are no part of the resolved run file.
   void add_unsaved(const std::string& name, std::string& value, const std::string& description);
   void add_unsaved(const std::string& name, bool& value, const std::string& description);
+  // Not both of these options, of which one is no part of the resolved run file.
+  void exclude(const std::string& one, const std::string& other);
   // A flag that names what is done without it too.
   void add_synonym_of_default(const std::string& name, const std::string& description);
 

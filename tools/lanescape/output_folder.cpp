@@ -18,14 +18,16 @@ OutputFolder::OutputFolder(fs::path path, bool resume) : path_(std::move(path)) 
   for (fs::path folder = path_; !folder.empty() && !fs::exists(folder); folder = folder.parent_path()) made_here_.push_back(folder);
   std::reverse(made_here_.begin(), made_here_.end());
   prepare_output_folder(path_);
+  lock_ = FolderLock(path_);
   fs::create_directories(checkpoints());
 }
 
 OutputFolder::OutputFolder(OutputFolder&& other) noexcept
-    : path_(std::exchange(other.path_, {})), made_here_(std::exchange(other.made_here_, {})) {}
+    : path_(std::exchange(other.path_, {})), lock_(std::move(other.lock_)), made_here_(std::exchange(other.made_here_, {})) {}
 
 OutputFolder& OutputFolder::operator=(OutputFolder&& other) noexcept {
   std::swap(path_, other.path_);
+  std::swap(lock_, other.lock_);
   std::swap(made_here_, other.made_here_);
   return *this;
 }

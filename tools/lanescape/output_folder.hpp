@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "folder_lock.hpp"
+
 namespace lanescape::program {
 
 // The folder of --out or --resume. A run with bad input leaves nothing behind: until keep() is called, the destructor removes what
@@ -16,7 +18,7 @@ class OutputFolder {
   // No folder: every other call does nothing.
   OutputFolder() = default;
   // Makes a missing folder and checks that it is writable; throws Error(bad_input). Refuses a folder with another run unless
-  // resumed.
+  // resumed, and one in which another run is at work.
   OutputFolder(std::filesystem::path path, bool resume);
   OutputFolder(OutputFolder&& other) noexcept;
   OutputFolder& operator=(OutputFolder&& other) noexcept;
@@ -33,6 +35,7 @@ class OutputFolder {
 
  private:
   std::filesystem::path path_;
+  FolderLock lock_;
   std::vector<std::filesystem::path> made_here_;  // folders and files, in the order they were made
 };
 

@@ -24,7 +24,13 @@ enum ExitStatus {
   goal_not_reached = static_cast<int>(ErrorCode::goal_not_reached),
   bad_input_status = static_cast<int>(ErrorCode::bad_input),
   internal_error = static_cast<int>(ErrorCode::internal),
+  interrupted_status = static_cast<int>(ErrorCode::interrupted),
 };
+
+// Of a run that ended. One that was interrupted may still reach its goal when it is resumed.
+inline ExitStatus status_of_run(bool reached, bool interrupted) {
+  return interrupted ? interrupted_status : reached ? done : goal_not_reached;
+}
 
 // What every subcommand takes.
 struct CommonOptions {
@@ -32,7 +38,7 @@ struct CommonOptions {
   int threads = 1;
   std::string isa = "auto";
   bool quiet = false;
-  std::string config, out, resume;
+  std::string config, out, resume, resume_or_start;
 
   void add_to(Options& options);
   // The requested instruction set. Puts its name into `isa`, and so into the resolved run file.
@@ -115,8 +121,10 @@ void install_signal_handlers();
 // The folder of --out or --resume, or none.
 OutputFolder open_folder(const CommonOptions& common);
 
-// Ends a run: writes result.json and the resolved run file if there is a folder, and keeps the folder.
+// Writes result.json and the resolved run file if there is a folder, and keeps the folder.
 void write_result(OutputFolder& folder, const std::string& subcommand, const toml::table& resolved, const Json& result);
+// The same at the end of a run that can be interrupted. The result then says with which status, so that a finished run is known.
+void write_result(OutputFolder& folder, const std::string& subcommand, const toml::table& resolved, Json& result, int status);
 
 // A line on stderr unless --quiet.
 void say(const CommonOptions& common, const std::string& line);

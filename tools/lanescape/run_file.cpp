@@ -9,15 +9,16 @@
 
 #include "core/error.hpp"
 #include "options.hpp"
+#include "resume_or_start.hpp"
 
 namespace lanescape::program {
 namespace {
 
 // The option with this name in a run file; null if there is none.
 const CLI::Option* find_option(const CLI::App& subcommand, const std::string& key) {
-  if (key == "help" || key == "config" || key == "resume") return nullptr;
+  if (key == "help" || key == "config" || key == "resume" || key == "resume-or-start") return nullptr;
   for (const CLI::Option* option : subcommand.get_options())
-    if (option->check_lname(key) || (option->get_positional() && CLI::detail::to_lower(option->get_name()) == key)) return option;
+    if (option->check_lname(key) || (option->get_positional() && key_of(*option) == key)) return option;
   return nullptr;
 }
 
@@ -38,10 +39,7 @@ void append_option(std::vector<std::string>& arguments, const std::string& name,
     return;
   }
   if (name.starts_with("--")) arguments.push_back(name);
-  if (const auto* list = node.as_array())
-    for (const auto& item : *list) append_value(arguments, item, where);
-  else
-    append_value(arguments, node, where);
+  for (const std::string& value : values_of(node, where)) arguments.push_back(value);
 }
 
 void refuse_options_besides_resume(const CLI::App& subcommand) {
@@ -100,20 +98,12 @@ struct RunFileArguments {
   }
 };
 
-}  // namespace
-
-std::vector<std::string> with_run_file(const std::vector<std::string>& arguments, CLI::App& program) {
-  const CLI::App& subcommand = parsed_subcommand(arguments, program);
-  const auto given = [&](const char* name) { return subcommand.get_option(name)->count() > 0; };
-  const bool resume = given("--resume");
-  if (!resume && !given("--config")) return arguments;
-  const auto file = resume ? subcommand.get_option("--resume")->as<std::string>() + "/run.toml"
-                           : subcommand.get_option("--config")->as<std::string>();
-  if (resume) refuse_options_besides_resume(subcommand);
-
+// The arguments with those entries of a run file that they do not give themselves. `file` starts messages.
+std::vector<std::string> with_entries(const std::vector<std::string>& arguments, const CLI::App& subcommand,
+                                      const toml::table& table, const std::string& file, bool keeps_folder) {
   RunFileArguments from_file;
   const std::string& name = subcommand.get_name();
-  for (const auto& [key, node] : read_run_file(file, resume)) {
+  for (const auto& [key, node] : table) {
     const std::string where = fmt::format("{}:{}: {}", file, node.source().begin.line, key.str());
     if (key == "subcommand") {
       const std::string other = node.value_or(std::string("?"));
@@ -123,13 +113,71 @@ std::vector<std::string> with_run_file(const std::vector<std::string>& arguments
     }
     const CLI::Option* option = find_option(subcommand, std::string(key.str()));
     if (option == nullptr) throw_bad_input(fmt::format("{} is not an option of {}, see lanescape {} --help", where, name, name));
-    if (option->count() == 0 && !(resume && key == "out")) from_file.add(*option, node, where);
+    if (option->count() == 0 && !(keeps_folder && key == "out")) from_file.add(*option, node, where);
   }
   // Positional arguments come first: CLI11 would take them for more values of the option before them.
   std::vector<std::string> extended = {arguments.front()};
   for (const auto* part : {&from_file.positionals, &from_file.added}) extended.insert(extended.end(), part->begin(), part->end());
   extended.insert(extended.end(), arguments.begin() + 1, arguments.end());
   return extended;
+}
+
+bool given(const CLI::App& subcommand, const char* name) { return subcommand.get_option(name)->count() > 0; }
+
+std::string value_of(const CLI::App& subcommand, const char* name) { return subcommand.get_option(name)->as<std::string>(); }
+
+// The arguments with another option in the place of --resume-or-start DIR or --resume-or-start=DIR.
+std::vector<std::string> with_folder_as(const char* name, std::vector<std::string> arguments) {
+  static const std::string replaced = "--resume-or-start";
+  for (std::string& argument : arguments)
+    if (argument == replaced || argument.starts_with(replaced + "=")) argument.replace(0, replaced.size(), name);
+  return arguments;
+}
+
+// `config`: the run file of --config, or nothing.
+CommandLine resumed_or_started(const std::vector<std::string>& arguments, const CLI::App& subcommand, const toml::table& config) {
+  const std::filesystem::path folder = value_of(subcommand, "--resume-or-start");
+  if (folder.empty()) throw_bad_input("--resume-or-start: the name of a folder is needed");
+  const std::string file = (folder / "run.toml").string();
+  if (!std::filesystem::exists(file))
+    return {with_folder_as("--out", with_entries(arguments, subcommand, config, value_of(subcommand, "--config"), true)), {}};
+  const toml::table stored = read_run_file(file, true);
+  const std::vector<std::string> extended = with_entries(arguments, subcommand, stored, file, true);
+  refuse_contradictions(subcommand, stored, file);
+  refuse_contradictions(subcommand, config, stored, file);
+  // Figures come after the result, so they may be missing and are drawn again; of an engine's processes one alone prints the result.
+  const bool resumed_anyway = stored["plot"].value_or(false) || stored.contains("landscape");
+  return {with_folder_as("--resume", extended), resumed_anyway ? std::filesystem::path() : folder};
+}
+
+}  // namespace
+
+std::string key_of(const CLI::Option& option) {
+  return option.get_lnames().empty() ? CLI::detail::to_lower(option.get_name()) : option.get_lnames().front();
+}
+
+std::vector<std::string> values_of(const toml::node& node, const std::string& where) {
+  std::vector<std::string> values;
+  if (const auto* flag = node.as_boolean())
+    values.push_back(flag->get() ? "true" : "false");
+  else if (const auto* list = node.as_array())
+    for (const auto& item : *list) append_value(values, item, where);
+  else
+    append_value(values, node, where);
+  return values;
+}
+
+CommandLine with_run_file(const std::vector<std::string>& arguments, CLI::App& program) {
+  const CLI::App& subcommand = parsed_subcommand(arguments, program);
+  if (given(subcommand, "--resume")) {
+    refuse_options_besides_resume(subcommand);
+    const std::string file = value_of(subcommand, "--resume") + "/run.toml";
+    return {with_entries(arguments, subcommand, read_run_file(file, true), file, true), {}};
+  }
+  const std::string file = given(subcommand, "--config") ? value_of(subcommand, "--config") : "";
+  const toml::table config = given(subcommand, "--config") ? read_run_file(file, false) : toml::table{};
+  if (given(subcommand, "--resume-or-start")) return resumed_or_started(arguments, subcommand, config);
+  return {with_entries(arguments, subcommand, config, file, false), {}};
 }
 
 }  // namespace lanescape::program

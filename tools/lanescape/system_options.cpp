@@ -19,6 +19,7 @@
 #include "io/extended_xyz.hpp"
 #include "io/model_file.hpp"
 #include "program.hpp"
+#include "resume_or_start.hpp"
 
 namespace lanescape::program {
 
@@ -30,7 +31,10 @@ void CommonOptions::add_to(Options& options) {
   options.add_unsaved("--quiet", quiet, "no progress bar, no messages");
   options.add_unsaved("--config", config, "run file (TOML) with any of these options; flags win");
   options.add_unsaved("--out", out, "folder for all files; without it none is written");
-  options.add_unsaved("--resume", resume, "folder of an interrupted run to continue");
+  options.add_unsaved("--resume", resume, "folder of an interrupted run (exit status 4) to continue");
+  options.add_unsaved("--resume-or-start", resume_or_start,
+                      "the same, or where it holds no run yet the folder to start one in; does nothing to a finished one");
+  for (const char* other : {"--out", "--resume"}) options.exclude("--resume-or-start", other);
 }
 
 Isa CommonOptions::resolve_isa() {
@@ -218,6 +222,11 @@ void write_result(OutputFolder& folder, const std::string& subcommand, const tom
   folder.write_run_file(subcommand, resolved);
   folder.write("result.json", [&](std::ostream& out) { out << text << '\n'; });
   folder.keep();
+}
+
+void write_result(OutputFolder& folder, const std::string& subcommand, const toml::table& resolved, Json& result, int status) {
+  result[exit_status_key] = status;
+  write_result(folder, subcommand, resolved, std::as_const(result));
 }
 
 void say(const CommonOptions& common, const std::string& line) {

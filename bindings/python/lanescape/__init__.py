@@ -23,13 +23,13 @@ from lanescape._core import (
     pair_potentials,
     shorten_methods,
 )
-from lanescape.errors import Error, InputError, RunError
+from lanescape.errors import Error, InputError, InterruptedRunError, RunError
 from lanescape.functions import check_path, evaluate, find_path, insert, overlap, shorten_path
 from lanescape.neighbours import neighbour_list
 from lanescape.results import EndPoints, Evaluation, InsertedParticle, Overlaps, Path, PathCertificate, ShortPath, SitePairs, Start
 
 __all__ = [
-    "EndPoints", "Error", "Evaluation", "EventDrivenDynamics", "HardSpheres", "InputError", "InsertedParticle", "Inserter", "Model",
+    "EndPoints", "Error", "Evaluation", "EventDrivenDynamics", "HardSpheres", "InputError", "InsertedParticle", "Inserter", "InterruptedRunError", "Model",
     "MolecularDynamics", "NeighbourList", "Overlaps", "ParticleMoves", "Path", "PathCertificate", "Potential", "RunError", "ShortPath", "SitePairs", "Start", "StateSystem", "__version__",
     "check_path", "evaluate", "find_path", "insert", "instruction_sets", "make_end_points", "make_start", "model_names", "neighbour_list", "overlap",
     "pair_potentials", "shorten_methods", "shorten_path",

@@ -1,6 +1,6 @@
 """Exceptions of the library. Wrong types of arguments, such as complex arrays, are a TypeError."""
 
-__all__ = ["Error", "InputError", "RunError"]
+__all__ = ["Error", "InputError", "InterruptedRunError", "RunError"]
 
 
 class Error(Exception):
@@ -13,3 +13,7 @@ class InputError(Error, ValueError):
 
 class RunError(Error, RuntimeError):
     """A run that ended before its goal, or a defect of the library."""
+
+
+class InterruptedRunError(RunError):
+    """A run that its progress function ended before it had a result."""

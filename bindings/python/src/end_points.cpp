@@ -72,9 +72,9 @@ void bind_end_points(nb::module_& module) {
       "equilibrates and follows. start: a Start. equilibration: steps of each stage, or collisions; between: from one pair to the\n"
       "next; 0 stands for the library's own, `quick` for shorter ones. progress: called now and then with the part done; False "
       "ends\n"
-      "the work.\n\nRaises InputError, and RunError if the temperature does not hold, the distance is not reached or `progress` "
-      "ended "
-      "the work.");
+      "the work.\n\nRaises InputError, RunError if the temperature does not hold or the distance is not reached, and "
+      "InterruptedRunError\n"
+      "if `progress` ended the work.");
 }
 
 }  // namespace lanescape::python

@@ -7,6 +7,20 @@
 #include "module.hpp"
 
 namespace lanescape::python {
+namespace {
+
+const char* class_of(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::bad_input:
+      return "InputError";
+    case ErrorCode::interrupted:
+      return "InterruptedRunError";
+    default:
+      return "RunError";
+  }
+}
+
+}  // namespace
 
 // lanescape.errors has the classes of exceptions: bad input is a ValueError, the rest a RuntimeError.
 void bind_errors(nanobind::module_&) {
@@ -16,8 +30,7 @@ void bind_errors(nanobind::module_&) {
     } catch (const std::bad_cast&) {
       PyErr_SetString(PyExc_TypeError, "an argument, or a member of a state, is of another type than is needed");
     } catch (const Error& error) {
-      const nanobind::object type =
-          nanobind::module_::import_("lanescape.errors").attr(error.code() == ErrorCode::bad_input ? "InputError" : "RunError");
+      const nanobind::object type = nanobind::module_::import_("lanescape.errors").attr(class_of(error.code()));
       PyErr_SetString(type.ptr(), error.what());
     }
   });

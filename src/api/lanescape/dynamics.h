@@ -35,8 +35,8 @@ typedef struct lanescape_end_point_settings {
 } lanescape_end_point_settings;
 
 lanescape_status lanescape_end_point_settings_init(lanescape_end_point_settings* settings, size_t size);
-// diameters: of each particle, for models that have them, or NULL. LANESCAPE_GOAL_NOT_REACHED if the temperature does not hold, the
-// distance is not reached, or the work is ended by `progress`.
+// diameters: of each particle, for models that have them, or NULL. LANESCAPE_GOAL_NOT_REACHED if the temperature does not hold or
+// the distance is not reached, LANESCAPE_INTERRUPTED if `progress` ends the work.
 lanescape_status lanescape_make_end_points(const lanescape_model* model, size_t particles, const int* species,
                                            const double* positions, const double box[3], const double* diameters,
                                            const lanescape_end_point_settings* settings, lanescape_end_points** ends);

@@ -119,7 +119,8 @@ struct EndPointSettings {
   Progress progress{};
 };
 
-// Throws Error(goal_not_reached) if the temperature does not hold, the distance is not reached, or `progress` returns false.
+// Throws Error(goal_not_reached) if the temperature does not hold or the distance is not reached, Error(interrupted) if `progress`
+// returns false.
 LANESCAPE_API std::vector<EndPoints> make_end_points(const Model& model, const Start& start, const EndPointSettings& settings);
 
 LANESCAPE_ABI_END

@@ -13,6 +13,7 @@ enum class ErrorCode : int {
   goal_not_reached = 1,  // the run was sound but ended at a limit
   bad_input = 2,         // the caller's data or options
   internal = 3,          // a defect of the library, or no memory
+  interrupted = 4,       // the caller or a signal ended it before it was done
 };
 
 // Thrown wherever the library cannot continue. The message is one line that says what, where and what is allowed.

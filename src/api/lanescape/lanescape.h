@@ -32,7 +32,8 @@ enum {
   LANESCAPE_GOAL_NOT_REACHED = 1,  // the run was sound but ended at a limit
   LANESCAPE_BAD_INPUT = 2,         // the caller's data or options
   LANESCAPE_INTERNAL = 3,          // a defect of the library, or no memory
-  LANESCAPE_CALLBACK_FAILED = 4    // a function of the caller returned an error code, or threw
+  LANESCAPE_INTERRUPTED = 4,       // the caller's progress function or a signal ended it before it was done
+  LANESCAPE_CALLBACK_FAILED = 5    // a function of the caller returned an error code, or threw
 };
 
 // Objects of the library.

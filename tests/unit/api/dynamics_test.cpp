@@ -196,7 +196,7 @@ TEST(MakeEndPoints, OfBothFamiliesAreTheDistanceApart) {
       EXPECT_GT(pair.time, 0.0);
     }
     settings.progress = [](double) { return false; };
-    refusal([&] { make_end_points(model, start, settings); }, ErrorCode::goal_not_reached);
+    refusal([&] { make_end_points(model, start, settings); }, ErrorCode::interrupted);
     settings.threads = 0;
     EXPECT_EQ(refusal([&] { make_end_points(model, start, settings); }), "0 threads are not allowed: from 1 to 4096");
   }
