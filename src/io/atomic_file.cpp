@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cerrno>
 #include <fstream>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -51,12 +52,14 @@ struct Created {
   int error;  // of the system; 0: the file is there, and empty
 };
 
+constexpr std::string_view temporary_prefix = ".lanescape-", temporary_suffix = ".tmp";
+
 // Exclusive creation: another process, or the remains of one that was killed, keeps its own file. The usual mode and umask
 // apply, which mkstemp would not give.
 Created create_in(const fs::path& folder) {
   static std::atomic<unsigned> counter{0};
   for (;;) {
-    fs::path candidate = folder / fmt::format(".lanescape-{}-{}.tmp", ::getpid(), counter++);
+    fs::path candidate = folder / fmt::format("{}{}-{}{}", temporary_prefix, ::getpid(), counter++, temporary_suffix);
     const Descriptor descriptor(::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (descriptor.valid()) return {std::move(candidate), 0};
     if (errno != EEXIST) return {{}, errno};
@@ -100,6 +103,14 @@ void write_atomically(const fs::path& target, const std::function<void(std::ostr
   TemporaryFile file(target);
   file.write(writer);
   file.commit();
+}
+
+void remove_unfinished_files(const fs::path& folder) {
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(temporary_prefix) && name.ends_with(temporary_suffix)) fs::remove(entry.path(), ignored);
+  }
 }
 
 void prepare_output_folder(const fs::path& folder) {

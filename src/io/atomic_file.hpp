@@ -30,6 +30,9 @@ class TemporaryFile {
 // TemporaryFile's write and commit in one go. What `writer` throws passes through and leaves the target as it was.
 void write_atomically(const std::filesystem::path& target, const std::function<void(std::ostream&)>& writer);
 
+// Removes what processes that were killed while they wrote have left in a folder. For one that no other process writes to.
+void remove_unfinished_files(const std::filesystem::path& folder);
+
 // Creates the folder with its parents where missing and proves that files can be made in it; else Error(bad_input).
 void prepare_output_folder(const std::filesystem::path& folder);
 

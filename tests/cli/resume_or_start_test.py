@@ -41,8 +41,11 @@ class ResumeOrStart(InterruptionTest):
             time.sleep(delay)
             process.kill()
             self.assertIn(process.wait(), (-signal.SIGKILL, 4))
+        for folder in (out, out / "checkpoint"):  # being written when it was killed
+            (folder / ".lanescape-1-0.tmp").write_text("half")
         self.done(*LONG_ENDS, INTO, out)
         self.assertEqual(contents(out), contents(whole))
+        self.assertEqual([file.name for file in (out / "checkpoint").iterdir()], ["endpoints.h5"])
 
     def test_a_folder_with_no_run_starts_one(self):
         for prepare in (lambda folder: None, lambda folder: folder.mkdir(), lambda folder: (folder / "checkpoint").mkdir(parents=True)):

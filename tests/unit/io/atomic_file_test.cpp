@@ -99,6 +99,15 @@ TEST(AtomicFile, WhatIsNoRegularFileIsNeverReplaced) {
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }
 
+TEST(AtomicFile, WhatAKilledProcessHasLeftIsRemovedAndNothingElse) {
+  const TemporaryFolder folder;
+  const auto left = folder.file(".lanescape-1-0.tmp", "half"), other = folder.file("lanescape-1-0.tmp", "mine");
+  remove_unfinished_files(folder.path());
+  remove_unfinished_files(folder.path() / "missing");
+  EXPECT_FALSE(std::filesystem::exists(left));
+  EXPECT_EQ(content_of(other), "mine");
+}
+
 TEST(OutputFolder, IsCreatedWithItsParentsAndLeftEmpty) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "a" / "b" / "";
