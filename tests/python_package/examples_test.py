@@ -20,7 +20,7 @@ class ExamplesTest(unittest.TestCase):
 
     def test_every_example_runs(self):
         scripts = sorted((SOURCE / "bindings/python/examples").glob("*.py"))
-        self.assertGreaterEqual(len(scripts), 10)
+        self.assertGreaterEqual(len(scripts), 11)
         for script in scripts:
             with self.subTest(script.name):
                 self.assert_runs(str(script))

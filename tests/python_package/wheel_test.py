@@ -73,7 +73,7 @@ def check_contents(built):
     names = zipfile.ZipFile(built).namelist()
     print(built.name, built.stat().st_size, "bytes")
     assert any(re.fullmatch(r"lanescape/_core[.\w-]*\.so", name) for name in names), names
-    for name in ("__init__.py", "_core.pyi", "ase.py", "py.typed"):
+    for name in ("__init__.py", "_core.pyi", "ase.py", "ipi/__main__.py", "py.typed"):
         assert f"lanescape/{name}" in names, f"{name} is missing in {names}"
     assert "-> object" not in zipfile.ZipFile(built).read("lanescape/_core.pyi").decode(), "a result has no type in the stub"
     strangers = [name for name in names if not re.match(r"lanescape(-[\d.]+\.dist-info)?/", name)]
