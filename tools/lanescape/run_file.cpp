@@ -145,7 +145,8 @@ CommandLine resumed_or_started(const std::vector<std::string>& arguments, const 
   const std::vector<std::string> extended = with_entries(arguments, subcommand, stored, file, true);
   refuse_contradictions(subcommand, stored, file);
   refuse_contradictions(subcommand, config, stored, file);
-  // Figures come after the result, so they may be missing and are drawn again; of an engine's processes one alone prints the result.
+  // Figures come after the result, so they may be missing and are drawn again; of an engine's processes one alone prints the
+  // result.
   const bool resumed_anyway = stored["plot"].value_or(false) || stored.contains("landscape");
   return {with_folder_as("--resume", extended), resumed_anyway ? std::filesystem::path() : folder};
 }
