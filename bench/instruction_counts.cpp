@@ -301,30 +301,32 @@ void displacement_moments(Isa isa, std::uint64_t rounds) {
   for (; rounds > 0; --rounds) keep(algebra.displacement_moments(liquid.positions, liquid.goal));
 }
 
-// Three blocks of 40 of a matrix with a large diagonal, set anew for each factor.
-void fill(BlockTridiagonal& matrix) {
-  matrix.set_zero();
-  for (std::size_t k = 0; k < matrix.blocks(); ++k)
-    for (std::size_t i = 0; i < matrix.dimension(); ++i) {
-      matrix.add(k, i, i, 4.0);
-      if (k + 1 < matrix.blocks()) matrix.add_coupling(k, i, i, -1.0);
-    }
-}
+// Three blocks of 42 with a large diagonal.
+class Blocks {
+ public:
+  explicit Blocks(Isa isa) : matrix_(kernel_table(isa), 3, 42, 1) {}
+  BlockTridiagonal& matrix() { return matrix_; }
+  bool factor() {
+    return matrix_.factor({[&](std::size_t block) {
+                             for (std::size_t i = 0; i < matrix_.dimension(); ++i) matrix_.add(block, i, i, 4.0);
+                           },
+                           [](std::size_t, BlockTridiagonal::Coupling& coupling) { coupling.unit = -1.0; }});
+  }
+
+ private:
+  BlockTridiagonal matrix_;
+};
 
 void block_factor(Isa isa, std::uint64_t rounds) {
-  BlockTridiagonal matrix(kernel_table(isa), 3, 40, 1);
-  for (; rounds > 0; --rounds) {
-    fill(matrix);
-    keep(matrix.factor());
-  }
+  Blocks blocks(isa);
+  for (; rounds > 0; --rounds) keep(blocks.factor());
 }
 
 void block_solve(Isa isa, std::uint64_t rounds) {
-  BlockTridiagonal matrix(kernel_table(isa), 3, 40, 1);
-  fill(matrix);
-  matrix.factor();
-  std::vector<AlignedArray> x(matrix.blocks(), AlignedArray(matrix.dimension(), 1.0));
-  for (; rounds > 0; --rounds) matrix.solve(x);
+  Blocks blocks(isa);
+  blocks.factor();
+  std::vector<AlignedArray> x(blocks.matrix().blocks(), AlignedArray(blocks.matrix().dimension(), 1.0));
+  for (; rounds > 0; --rounds) blocks.matrix().solve(x);
   keep(x);
 }
 
