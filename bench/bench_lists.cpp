@@ -12,7 +12,7 @@
 // operations that such a pair needs at least, 15 multiply-adds (bench_landscape.cpp), 6 for the energy alone; `fraction_of_peak`
 // relative to the measured rate of these operations on as many cores; `flops_per_byte`, where list, points, positions and gradients
 // count once each; `bytes_per_particle` of the list and its data. The context has peak_gflops and memory_gb_per_second of one core.
-// points, positions and gradients once each; `bytes_per_particle` that the list and all that belongs to it take.
+// `sort_ns` and `rows_ns` are the two parts of a renewal: points and images sorted by cells, and neighbours found, per particle.
 
 #include <fmt/format.h>
 
@@ -29,6 +29,7 @@
 #include "io/extended_xyz.hpp"
 #include "neighbour/neighbour_list.hpp"
 #include "neighbour/neighbour_rows.hpp"
+#include "neighbour/periodic_points.hpp"
 #include "path/finder.hpp"
 #include "stepper/contour.hpp"
 #include "verification/kernel_checks.hpp"
@@ -211,6 +212,20 @@ void evaluate(benchmark::State& state, Quantity quantity, const Setting& setting
   state.counters["flops_per_byte"] = operations / bytes;
 }
 
+// What sorting the points of a list takes on average.
+double sort_seconds(const System& system, const ParticleLayout& layout, const std::vector<double>& cutoffs, int threads,
+                    const AlignedArray& here, const AlignedArray& there) {
+  std::vector<double> margins(layout.blocks().size(), 0.0);
+  for (std::size_t k = 0; k < cutoffs.size(); ++k)
+    margins[k % margins.size()] = std::max(margins[k % margins.size()], cutoffs[k] + default_skin);
+  PeriodicPoints points(system.configuration.box, layout, margins, threads);
+  points.sort(here);  // takes memory
+  const std::size_t times = std::max<std::size_t>(4, 400'000 / layout.size());
+  const auto start = std::chrono::steady_clock::now();
+  for (std::size_t k = 0; k < times; ++k) points.sort(k % 2 == 0 ? there : here);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / static_cast<double>(times);
+}
+
 // Rebuilds the list: particles move forth and back by the skin.
 void renew(benchmark::State& state, const Setting& setting) {
   const System& system = setting.source();
@@ -230,6 +245,9 @@ void renew(benchmark::State& state, const Setting& setting) {
   if (list.rebuilds() != static_cast<std::uint64_t>(state.iterations()))
     return state.SkipWithError("the list was not always renewed");
   set_time_counters(state, system, setting.threads, seconds);
+  const double sort = 1e9 / static_cast<double>(layout.size()) * sort_seconds(system, layout, cutoffs, setting.threads, here, there);
+  state.counters["sort_ns"] = sort;
+  state.counters["rows_ns"] = 1e9 * seconds / static_cast<double>(layout.size()) - sort;
 }
 
 // Whole steps of molecular dynamics at T = 1; lists are rebuilt when needed.

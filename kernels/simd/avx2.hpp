@@ -65,6 +65,12 @@ struct SetLanes {
 };
 inline constexpr SetLanes set_lanes;
 
+inline std::size_t compress_store_wide(std::uint32_t* p, std::uint32_t mask, const std::uint32_t* from) noexcept {
+  const __m256i lanes_set = _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(set_lanes.of[mask & 0xffU])));
+  const __m256i numbers = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), _mm256_permutevar8x32_epi32(numbers, lanes_set));
+  return static_cast<std::size_t>(__builtin_popcount(mask));
+}
 inline std::size_t compress_store_offsets(std::uint32_t* p, std::uint32_t mask, std::uint32_t first) noexcept {
   const __m256i lanes_set = _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(set_lanes.of[mask & 0xffU])));
   const __m256i offsets = _mm256_slli_epi32(_mm256_add_epi32(_mm256_set1_epi32(static_cast<std::int32_t>(first)), lanes_set), 2);

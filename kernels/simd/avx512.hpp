@@ -62,6 +62,10 @@ inline std::size_t compress_store(std::uint32_t* p, unsigned mask, const std::ui
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), _mm256_maskz_compress_epi32(static_cast<__mmask8>(mask), all));
   return static_cast<std::size_t>(__builtin_popcount(mask));
 }
+inline std::size_t compress_store_wide(std::uint32_t* p, std::uint32_t mask, const std::uint32_t* from) noexcept {
+  _mm512_storeu_si512(p, _mm512_maskz_compress_epi32(static_cast<__mmask16>(mask), _mm512_loadu_si512(from)));
+  return static_cast<std::size_t>(__builtin_popcount(mask));
+}
 inline std::size_t compress_store_offsets(std::uint32_t* p, std::uint32_t mask, std::uint32_t first) noexcept {
   const __m512i offsets = _mm512_add_epi32(_mm512_set1_epi32(static_cast<std::int32_t>(4 * first)),
                                            _mm512_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28, 32, 36, 40, 44, 48, 52, 56, 60));

@@ -19,6 +19,9 @@ inline void store_point(double* out, Vector x, Vector y, Vector z) noexcept {
   out[3] = 0.0;
 }
 
+inline std::size_t compress_store_wide(std::uint32_t* p, std::uint32_t mask, const std::uint32_t* from) noexcept {
+  return compress_by_lane<lanes_of<FloatVector>>(p, mask, [=](std::size_t k) { return from[k]; });
+}
 inline std::size_t compress_store_offsets(std::uint32_t* p, std::uint32_t mask, std::uint32_t first) noexcept {
   return compress_by_lane<lanes_of<FloatVector>>(p, mask,
                                                  [=](std::size_t k) { return 4 * (first + static_cast<std::uint32_t>(k)); });

@@ -70,6 +70,7 @@ inline constexpr std::size_t float_lanes = lanes_of<FloatVector>;
 //   subtract_from_cluster(p, v)          the rows of v from p[0 ... 7], aligned to a row
 //   add_to_rows(p, v)                    the lane sums of four rows, in as many vectors as they take, to p[0 ... 3], 16-byte aligned
 //   compress_store_offsets(p, bits, first)      compress_store of the numbers 4 (first + lane)
+//   compress_store_wide(p, bits, from)       compress_store of as many 32-bit numbers in memory
 //   Vector add_halves(v)                 lower half + upper half, in double precision
 
 inline Vector broadcast(double s) noexcept { return broadcast<Vector>(s); }
@@ -97,8 +98,9 @@ inline Vector count_from(double first) noexcept {
 // Taken from zero and not negated, so that zero stays +0.
 inline double reduce_min(Vector v) noexcept { return 0.0 - reduce_max(broadcast(0.0) - v); }
 
-inline void prefetch(const void* p) noexcept { __builtin_prefetch(p); }
-inline void prefetch_for_write(void* p) noexcept { __builtin_prefetch(p, 1); }
+// Inlined by force: g++ takes a function that only prefetches for one without effects and drops calls of it.
+[[gnu::always_inline]] inline void prefetch(const void* p) noexcept { __builtin_prefetch(p); }
+[[gnu::always_inline]] inline void prefetch_for_write(void* p) noexcept { __builtin_prefetch(p, 1); }
 
 // Whole numbers that lanes are rounded to, one by one in memory: what takes them out of a vector register costs more. In 32 bits, so
 // that they are at most 32 bytes: loads from the upper half of a store of 64 bytes wait until it has left the store buffer.

@@ -46,6 +46,27 @@ struct GroupQuery {
   std::size_t capacity;
 };
 
+// The columns of a grid within reach of a rectangle in x and y: the first cell of each, and how far beyond the rectangle's z it is within
+// reach, in cells. Arrays are given, with `capacity` a multiple of slot_padding; the rest is written.
+struct NearColumns {
+  std::uint32_t* first_cell;
+  double* cells;
+  std::size_t capacity;
+  std::size_t count;
+  double reach;  // with what allows for rounding
+};
+
+// Copies of a species' points that rows of a group look through. `capacity` and arrays are given, the rest is written.
+struct NearPoints {
+  float *x, *y, *z;
+  std::uint32_t* numbers;
+  std::size_t capacity;
+  std::size_t count;
+  double reach_squared;  // of the search
+  std::uint32_t place[most_group_rows];  // of each row's own point among them, no_place where it is not
+};
+inline constexpr std::uint32_t no_place = ~0U;
+
 struct GroupOutput {
   std::uint32_t* numbers;  // row after row
   std::size_t capacity;

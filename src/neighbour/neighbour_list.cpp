@@ -15,7 +15,7 @@ namespace lanescape {
 namespace {
 
 // How far rows that search together may lie apart along z, in reaches.
-constexpr double group_depth = 0.6;
+constexpr double group_depth = 0.8;
 
 double longest(const std::vector<double>& lengths) {
   double longest = 0.0;
@@ -54,9 +54,8 @@ NeighbourList::NeighbourList(const Box& box, const ParticleLayout& layout, const
   share_out([](const Block& block) { return block.row_count; });
   writers_ = std::vector<Writer>(parts());
   for (Writer& writer : writers_) {
-    writer.found.resize(counts_.size());
-    writer.counts.resize(counts_.size());
-    writer.next.resize(counts_.size());
+    writer.nearby.resize(counts_.size());
+    writer.near.resize(counts_.size());
   }
   prepare(box);
 }
@@ -204,76 +203,94 @@ void NeighbourList::Writer::make_room(std::size_t more) {
   if (end + more > neighbours.capacity()) neighbours.grow(end + more + end / 16, end);
 }
 
+NeighbourList::Column NeighbourList::column_of(std::uint32_t place, const kernels::PointGrid& grid) const {
+  const double* at = points_.points() + place;
+  const auto along = [&](std::size_t axis) {
+    return cell_along(at[axis] - grid.low[axis], grid.cells_per_length[axis], grid.cells[axis]);
+  };
+  return {along(0), along(1)};
+}
+
 // Rows follow each other in the order of cells along z.
-NeighbourList::RowGroup NeighbourList::group_at(const Block& block, std::size_t row) const {
+NeighbourList::RowGroup NeighbourList::group_at(const Block& block, std::size_t row, const Column& column,
+                                                const kernels::PointGrid& grid) const {
   const std::span<const std::uint32_t> rows = points_.rows(block.species);
-  const kernels::PointGrid grid = points_.grid(block.species);
-  const double widest[3] = {grid.edge[0], grid.edge[1], group_depth * reaches_[block.species * (species() + 1)]};
-  const double* first = points_.points() + rows[row];
+  const double deepest = group_depth * reaches_[block.species * (species() + 1)], first = points_.points()[rows[row] + 2];
   RowGroup group;
-  group.begin = row;
   group.count = 0;
   const std::size_t last = std::min(block.first_row + block.row_count, row + kernels::most_group_rows);
   for (std::size_t k = row; k < last; ++k) {
     const double* at = points_.points() + rows[k];
-    if (std::abs(at[0] - first[0]) > widest[0] || std::abs(at[1] - first[1]) > widest[1] || std::abs(at[2] - first[2]) > widest[2])
-      break;
+    if (std::abs(at[2] - first) > deepest || !(column_of(rows[k], grid) == column)) break;
     group.rows[group.count++] = {{at[0], at[1], at[2]}, rows[k] / static_cast<std::uint32_t>(kernels::point_width)};
   }
   return group;
 }
 
-void NeighbourList::search(const RowGroup& group, std::size_t from, std::size_t of, Writer& writer, std::uint32_t* counts) const {
-  const double within = reach(from, of);
-  std::array<std::uint8_t, kernels::most_group_rows> doubtful;  // none: `certain` is the reach
-  for (;;) {
-    const std::size_t stride = writer.near_room + read_ahead;
-    float* near = writer.near.room_for(3 * stride);
-    const kernels::GroupQuery query{group.rows.data(),
-                                    group.count,
-                                    within,
-                                    within,
-                                    points_.offsets(),
-                                    near,
-                                    near + stride,
-                                    near + 2 * stride,
-                                    writer.near_numbers.room_for(stride),
-                                    writer.near_room};
-    const kernels::GroupOutput out{writer.found[of].room_for(writer.found_room + read_ahead), writer.found_room, counts,
-                                   doubtful.data()};
-    if (table_->points_within_group(points_.grid(of), query, out) <= out.capacity) return;
-    writer.near_room = 2 * writer.near_room + 512;
-    writer.found_room = (kernels::most_group_rows + 1) * (writer.near_room + read_ahead);
+void NeighbourList::look_around(const Column& column, std::size_t from, Writer& writer) const {
+  const kernels::PointGrid own = points_.grid(from);
+  const auto face = [&](std::size_t axis, std::size_t cell) { return own.low[axis] + static_cast<double>(cell) * own.edge[axis]; };
+  const double low[2] = {face(0, column.x), face(1, column.y)}, high[2] = {face(0, column.x + 1), face(1, column.y + 1)};
+  for (std::size_t of = 0; of < species(); ++of) {
+    Nearby& nearby = writer.nearby[of];
+    kernels::NearColumns& columns = nearby.columns;
+    while (table_->columns_near_rectangle(points_.grid(of), low, high, reach(from, of), columns) > columns.capacity) {
+      columns.capacity = 2 * columns.capacity + 8 * kernels::slot_padding;
+      columns.first_cell = nearby.first_cells.room_for(columns.capacity);
+      columns.cells = nearby.cells.room_for(columns.capacity);
+    }
   }
 }
 
-std::uint32_t NeighbourList::put_segment(std::uint32_t place, const std::uint32_t* found, std::size_t count, Writer& writer) const {
-  writer.make_room(count + kernels::slot_padding);
-  std::uint32_t* neighbours = writer.neighbours.data() + writer.end;
-  std::copy_n(found, count, neighbours);
-  count = without_own_images(place, neighbours, count);
-  if (exclusions_) count = without_excluded(place, neighbours, count);
-  // Whole vectors: what is added is never counted.
-  std::fill_n(neighbours + count, padded(count) - count, place);
-  writer.end += padded(count);
-  return static_cast<std::uint32_t>(count);
+std::size_t NeighbourList::copy_near(const RowGroup& group, std::size_t of, Writer& writer) const {
+  kernels::NearPoints& near = writer.near[of];
+  Nearby& nearby = writer.nearby[of];
+  for (;;) {
+    const std::size_t count = table_->points_near_group(points_.grid(of), nearby.columns, group.rows.data(), group.count,
+                                                        points_.offsets(), near);
+    if (count <= near.capacity) return count;
+    near.capacity = 2 * near.capacity + 512;
+    const std::size_t stride = near.capacity + read_ahead;
+    near.x = nearby.coordinates.room_for(3 * stride);
+    near.y = near.x + stride;
+    near.z = near.y + stride;
+    near.numbers = nearby.offsets.room_for(stride);
+  }
+}
+
+std::size_t NeighbourList::shorten(const RowGroup& group, std::uint32_t* neighbours, std::uint32_t* lengths) const {
+  std::uint32_t *from = neighbours, *to = neighbours;
+  for (std::size_t row = 0; row < group.count; ++row)
+    for (std::size_t s = 0; s < species(); ++s, ++lengths) {
+      const std::uint32_t place = static_cast<std::uint32_t>(kernels::point_width) * group.rows[row].self;
+      std::copy(from, from + *lengths, to);
+      from += padded(*lengths);
+      std::size_t count = without_own_images(place, to, *lengths);
+      if (exclusions_) count = without_excluded(place, to, count);
+      std::fill_n(to + count, padded(count) - count, place);
+      to += padded(count);
+      *lengths = static_cast<std::uint32_t>(count);
+    }
+  return static_cast<std::size_t>(to - neighbours);
 }
 
 void NeighbourList::fill(Block& block, Writer& writer) {
-  std::uint32_t* length = lengths_.data() + block.first_segment;
+  std::uint32_t* lengths = lengths_.data() + block.first_segment;
+  const kernels::PointGrid grid = points_.grid(block.species);
+  const std::span<const std::uint32_t> rows = points_.rows(block.species);
   block.first_neighbour = writer.end;
   for (std::size_t k = block.first_row; k < block.first_row + block.row_count;) {
-    const RowGroup group = group_at(block, k);
-    for (std::size_t s = 0; s < species(); ++s) {
-      search(group, block.species, s, writer, writer.counts[s].data());
-      writer.next[s] = writer.found[s].data();
-    }
-    for (std::size_t row = 0; row < group.count; ++row)
-      for (std::size_t s = 0; s < species(); ++s) {
-        const std::uint32_t place = static_cast<std::uint32_t>(kernels::point_width) * group.rows[row].self;
-        *length++ = put_segment(place, writer.next[s], writer.counts[s][row], writer);
-        writer.next[s] += writer.counts[s][row];
-      }
+    const Column column = column_of(rows[k], grid);
+    if (k == block.first_row || !(column == column_of(rows[k - 1], grid))) look_around(column, block.species, writer);
+    const RowGroup group = group_at(block, k, column, grid);
+    std::size_t most = 0;
+    for (std::size_t s = 0; s < species(); ++s) most += padded(copy_near(group, s, writer)) + kernels::slot_padding;
+    writer.make_room(group.count * most + read_ahead);
+    std::uint32_t* neighbours = writer.neighbours.data() + writer.end;
+    const std::size_t size =
+        table_->list_group(group.rows.data(), group.count, writer.near.data(), species(), neighbours, lengths);
+    writer.end += own_images_left_out_ || exclusions_ ? shorten(group, neighbours, lengths) : size;
+    lengths += group.count * species();
     k += group.count;
   }
   block.padded_neighbours = writer.end - block.first_neighbour;
@@ -307,8 +324,9 @@ std::size_t NeighbourList::memory() const {
                       blocks_.capacity() * sizeof(Block) + lengths_.capacity() * sizeof(std::uint32_t);
   for (const Writer& writer : writers_) {
     bytes += writer.neighbours.capacity() * sizeof(std::uint32_t);
-    bytes += writer.near.capacity() * sizeof(float) + writer.near_numbers.capacity() * sizeof(std::uint32_t);
-    for (const auto& found : writer.found) bytes += found.capacity() * sizeof(std::uint32_t);
+    for (const Nearby& nearby : writer.nearby)
+      bytes += nearby.coordinates.capacity() * sizeof(float) + nearby.cells.capacity() * sizeof(double) +
+               (nearby.offsets.capacity() + nearby.first_cells.capacity()) * sizeof(std::uint32_t);
   }
   return bytes;
 }

@@ -93,22 +93,31 @@ class NeighbourList {
     std::size_t array, first_neighbour;         // of the writer that has made it
     std::size_t padded_neighbours;
   };
+  // The columns near those that rows are in, and memory for copies of points there.
+  struct Nearby {
+    KeptArray<std::uint32_t> first_cells;
+    KeptArray<double> cells;
+    kernels::NearColumns columns{};
+    KeptArray<float> coordinates;  // one after the other
+    KeptArray<std::uint32_t> offsets;
+  };
   // What is written for a part of the blocks: their neighbours; and scratch of the search.
   struct alignas(64) Writer {
     KeptArray<std::uint32_t> neighbours;
     std::size_t end = 0;
-    // Of each species: what the rows of a group have found, one row after the other; how many each; the row that comes next.
-    std::vector<KeptArray<std::uint32_t>> found;
-    std::vector<std::array<std::uint32_t, kernels::most_group_rows>> counts;
-    std::vector<const std::uint32_t*> next;
-    KeptArray<std::uint32_t> near_numbers;
-    KeptArray<float> near;  // copies of the points near a group, a coordinate after the other
-    std::size_t near_room = 0, found_room = 0;
+    // Of each species what is near the rows that search.
+    std::vector<Nearby> nearby;
+    std::vector<kernels::NearPoints> near;  // of each species
     void make_room(std::size_t more);
   };
-  // Rows of a block that are near each other and search together, and how many of each species each has found.
+  // A column of cells of the rows' own species.
+  struct Column {
+    std::size_t x, y;
+    bool operator==(const Column&) const = default;
+  };
+  // Rows of a block that follow each other in a column and search together.
   struct RowGroup {
-    std::size_t begin, count;
+    std::size_t count;
     std::array<kernels::GroupRow, kernels::most_group_rows> rows;
   };
   void rebuild(const AlignedArray& positions);
@@ -121,11 +130,15 @@ class NeighbourList {
   // Reach of a search from a row of one species for points of another.
   double reach(std::size_t from, std::size_t of) const { return std::max(reaches_[from * species() + of], everywhere_); }
   void fill(Block& block, Writer& writer);
-  RowGroup group_at(const Block& block, std::size_t row) const;
-  // Puts what each row of a group finds of a species behind each other, and how many these are into counts.
-  void search(const RowGroup& group, std::size_t from, std::size_t of, Writer& writer, std::uint32_t* counts) const;
-  // Puts them into the list; returns their number.
-  std::uint32_t put_segment(std::uint32_t place, const std::uint32_t* found, std::size_t count, Writer& writer) const;
+  // `grid`: that of the rows' own species.
+  Column column_of(std::uint32_t place, const kernels::PointGrid& grid) const;
+  RowGroup group_at(const Block& block, std::size_t row, const Column& column, const kernels::PointGrid& grid) const;
+  // Finds the columns near one of a species.
+  void look_around(const Column& column, std::size_t species, Writer& writer) const;
+  // Copies the points of a species near a group; returns their number.
+  std::size_t copy_near(const RowGroup& group, std::size_t of, Writer& writer) const;
+  // Takes out of rows that were just put into a list what does not belong there; returns what they then take up.
+  std::size_t shorten(const RowGroup& group, std::uint32_t* neighbours, std::uint32_t* lengths) const;
   std::size_t without_own_images(std::uint32_t place, std::uint32_t* neighbours, std::size_t count) const;
   std::size_t without_excluded(std::uint32_t place, std::uint32_t* neighbours, std::size_t count) const;
   // Cuts blocks into parts of about the same work(block).

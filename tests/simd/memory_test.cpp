@@ -161,6 +161,16 @@ TEST_P(Memory, PacksNumbersInPlace) {
   }
 }
 
+TEST_P(Memory, PacksAWideVectorOfNumbersInPlace) {
+  for (unsigned bits = 0; bits < 1U << float_lanes(); bits += float_lanes() > 8 ? 13 : 1) {
+    Lanes<std::uint32_t> numbers{};
+    numbers.fill(99);
+    for (std::size_t k = 0; k < float_lanes(); ++k) numbers[k] = 1000 + static_cast<std::uint32_t>(k);
+    expect_packed(numbers, simd().compress_store_wide(numbers.data(), bits, numbers.data()), bits, float_lanes(),
+                  [](std::size_t k) { return 1000 + static_cast<std::uint32_t>(k); });
+  }
+}
+
 TEST_P(Memory, PacksOffsetsOfRecords) {
   for (unsigned bits = 0; bits < 1U << float_lanes(); bits += float_lanes() > 8 ? 13 : 1) {
     Lanes<std::uint32_t> offsets{};

@@ -156,6 +156,7 @@ constinit const testing::SimdOperations operations{
     .add_to_rows = add_to_rows_of,
     .wrapped_difference = [](const std::int32_t* p, std::int32_t s, float* out) { store(out, wrapped_difference(p, s)); },
     .gather_differences = gather_differences_of,
+    .compress_store_wide = compress_store_wide,
     .compress_store_offsets = compress_store_offsets,
     .add_halves = [](const float* v, double* out) { store(out, add_halves(load(v))); },
 };

@@ -64,6 +64,7 @@ struct SimdOperations {
   void (*wrapped_difference)(const std::int32_t* p, std::int32_t s, float* out);
   void (*gather_differences)(const std::int32_t* base, const std::uint32_t* offset, const std::int32_t* origin,
                              float* out);  // three vectors
+  std::size_t (*compress_store_wide)(std::uint32_t* p, std::uint32_t bits, const std::uint32_t* from);
   std::size_t (*compress_store_offsets)(std::uint32_t* p, std::uint32_t bits, std::uint32_t first);
   void (*add_halves)(const float* v, double* out);
 };

@@ -59,7 +59,7 @@ bool PairInteraction::wants_clusters(const Box& box) const {
   if (options_.precision != Precision::mixed || !wants_list(box)) return false;
   const bool can = !exclusions_ && ClusterSums::can_hold(model_, box, layout_, options_.skin);
   if (options_.search != PairSearch::clusters)
-    return can && options_.search == PairSearch::automatic && layout_.size() >= ClusterSums::crossover;
+    return can && options_.search == PairSearch::automatic && layout_.size() >= ClusterSums::crossover(layout_.blocks().size());
   if (!can)
     throw_bad_input(
         "clusters of particles are not allowed with these: no exclusions and no diameters, a box of twice the cutoff and "

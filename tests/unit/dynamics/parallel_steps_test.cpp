@@ -29,7 +29,8 @@ struct Liquid {
   ParticleLayout layout;
 
   PairLandscape landscape(int threads, Precision precision = Precision::double_precision) const {
-    return {model, start.box, layout, choose_isa("auto"), {.threads = threads, .precision = precision}};
+    const PairSearch search = precision == Precision::mixed ? PairSearch::clusters : PairSearch::list;
+    return {model, start.box, layout, choose_isa("auto"), {.search = search, .threads = threads, .precision = precision}};
   }
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <tuple>
 
 #include "configuration/lattice.hpp"
 #include "core/error.hpp"
@@ -171,11 +172,22 @@ TEST(ClusterSums, AreRefusedWhereTheyCannotBe) {
   wide.cutoff = 5.0;
   const auto& [model, configuration, layout] = liquid;
   EXPECT_THROW(PairInteraction(wide, configuration.box, layout, kernel_table(available_isas().back()), in_clusters()), Error);
-  PairInteraction automatic = liquid.interaction({.precision = Precision::mixed});
-  EXPECT_EQ(automatic.list(), nullptr);
-  EXPECT_TRUE(automatic.has_list());
-  automatic.set_exclusions(std::vector<std::array<std::size_t, 2>>{{0, 1}});
-  EXPECT_NE(automatic.list(), nullptr);
+}
+
+TEST(ClusterSums, AreTakenInLargeSystemsWithoutExclusions) {
+  for (const auto& [large, few, many] : {std::tuple{kob_andersen(), 4000u, 6912u}, std::tuple{lennard_jones(), 2048u, 4000u}}) {
+    const auto automatic = [&model = large](std::size_t particles) {
+      const Configuration start = fcc_start(model, particles, 1.2, 1);
+      return PairInteraction(model, start.box, ParticleLayout(start.species, model.species.size()),
+                             kernel_table(available_isas().back()), {.precision = Precision::mixed});
+    };
+    EXPECT_NE(automatic(few).list(), nullptr);
+    PairInteraction over_clusters = automatic(many);
+    EXPECT_EQ(over_clusters.list(), nullptr);
+    EXPECT_TRUE(over_clusters.has_list());
+    over_clusters.set_exclusions(std::vector<std::array<std::size_t, 2>>{{0, 1}});
+    EXPECT_NE(over_clusters.list(), nullptr);
+  }
 }
 
 TEST(ClusterSums, RefuseCoordinatesThatAreNotFinite) {
