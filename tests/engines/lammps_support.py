@@ -76,13 +76,13 @@ class Liquid:
 
     def script(self, styles, before=""):
         density = 1.2 if self.types == 2 else 0.8442
-        edge = (4.0 / density) ** (1 / 3) * self.sigma
+        scale = density if self.units == "lj" else (4.0 / density) ** (1 / 3) * self.sigma  # units lj take the density
         thermo = " ".join(COLUMNS)
         return f"""{before}
 units {self.units}
 newton {self.newton}
 atom_style atomic
-lattice custom {edge!r} a1 1 0 0 a2 0 1 0 a3 0 0 1 basis 0 0 0 basis 0 0.5 0.5 basis 0.5 0 0.5 basis 0.5 0.5 0
+lattice custom {scale!r} a1 1 0 0 a2 0 1 0 a3 0 0 1 basis 0 0 0 basis 0 0.5 0.5 basis 0.5 0 0.5 basis 0.5 0.5 0
 region box block 0 {self.cells} 0 {self.cells} 0 {self.cells}
 create_box {self.types} box
 create_atoms 1 box
