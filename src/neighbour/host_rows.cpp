@@ -136,24 +136,15 @@ void HostRows::find_pairs(const HostLists& lists) {
   }
 }
 
-void HostRows::assign_both_ends(const HostLists& lists) {
-  const std::size_t points = lists.species.size();
-  const auto segment = [&](std::size_t of, std::size_t with) {
-    return of * species_ + static_cast<std::size_t>(lists.species[with]);
-  };
-  find_pairs(lists);
-  counts_.assign(points * species_, 0);
-  for (const auto& [i, j] : pairs_) {
-    ++counts_[segment(i, j)];
-    ++counts_[segment(j, i)];
-  }
+// The arrays of rows for the counts, and where the first neighbour of each goes.
+void HostRows::make_rows_of_both_ends(const HostLists& lists) {
   const auto room = [&](int point) {
     std::size_t room = 0;
     for (std::size_t s = 0; s < species_; ++s) room += padded(counts_[static_cast<std::size_t>(point) * species_ + s]);
     return room;
   };
   points_.clear();
-  for (int point = 0; point < static_cast<int>(points); ++point)
+  for (int point = 0; point < static_cast<int>(lists.species.size()); ++point)
     if (room(point) > 0) points_.push_back(point);
   cut_into_blocks(lists, points_, room);
   next_.resize(counts_.size());
@@ -166,9 +157,41 @@ void HostRows::assign_both_ends(const HostLists& lists) {
       std::fill_n(out + count, padded(count) - count, row);
       out += padded(count);
     }
+}
+
+void HostRows::assign_both_ends(const HostLists& lists) {
+  counts_.assign(lists.species.size() * species_, 0);
+  if (one_key_) return assign_both_ends_of_one_species(lists);
+  const auto segment = [&](std::size_t of, std::size_t with) {
+    return of * species_ + static_cast<std::size_t>(lists.species[with]);
+  };
+  find_pairs(lists);
+  for (const auto& [i, j] : pairs_) {
+    ++counts_[segment(i, j)];
+    ++counts_[segment(j, i)];
+  }
+  make_rows_of_both_ends(lists);
   for (const auto& [i, j] : pairs_) {
     *next_[segment(i, j)]++ = offset_of(j);
     *next_[segment(j, i)]++ = offset_of(i);
+  }
+}
+
+// Lists are copied as they are; only the other ends of their pairs are scattered.
+void HostRows::assign_both_ends_of_one_species(const HostLists& lists) {
+  for (const int i : lists.rows) {
+    const auto list = list_of(lists, i);
+    counts_[static_cast<std::size_t>(i)] += static_cast<std::uint32_t>(list.size());
+    for (const int j : list) ++counts_[static_cast<std::uint32_t>(j) & lists.mask];
+  }
+  make_rows_of_both_ends(lists);
+  for (const int i : lists.rows) {
+    const auto list = list_of(lists, i);
+    std::uint32_t*& next = next_[static_cast<std::size_t>(i)];
+    next = std::transform(list.begin(), list.end(), next,
+                          [&](int j) { return offset_of(static_cast<std::uint32_t>(j) & lists.mask); });
+    const std::uint32_t own = offset_of(static_cast<std::uint32_t>(i));
+    for (const int j : list) *next_[static_cast<std::uint32_t>(j) & lists.mask]++ = own;
   }
 }
 

@@ -56,6 +56,8 @@ class HostRows {
   void cut_into_blocks(const HostLists& lists, std::span<const int> points, Needed needed);
   void fill(const HostLists& lists, const Block& block);
   void assign_both_ends(const HostLists& lists);
+  void assign_both_ends_of_one_species(const HostLists& lists);
+  void make_rows_of_both_ends(const HostLists& lists);
   // Those that count.
   void find_pairs(const HostLists& lists);
 

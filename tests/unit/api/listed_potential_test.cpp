@@ -128,6 +128,20 @@ TEST(ListedPotential, HasTheReferencesEnergyForcesAndVirialForEachKindOfList) {
   }
 }
 
+TEST(ListedPotential, OfOneSpeciesHasTheReferencesForcesOverHalfLists) {
+  Configuration c = liquid("ka_melted_144.extxyz");
+  c.species.assign(c.size(), 0);
+  const reference::Evaluation expected = evaluate_reference(reference_model(), c);
+  const Host host(c, reach, 0, c.size(), true);
+  ListedPotential potential(kob_andersen_plain(), {.lists = ListedPotential::Lists::half, .species_of = {0}});
+  ListedPotential argon(Model::named("lennard-jones", {.truncation = "plain"}), {.lists = ListedPotential::Lists::half});
+  for (ListedPotential* of : {&potential, &argon}) {
+    of->set_lists(host.view());
+    const Result r = evaluate(*of, host);
+    expect_reference(r, host.folded(r.forces, c.size()), expected);
+  }
+}
+
 TEST(ListedPotential, OfTwoDomainsAddUpToTheWhole) {
   const Configuration c = liquid("ka_melted_144.extxyz");
   const reference::Evaluation expected = evaluate_reference(reference_model(), c);
