@@ -193,12 +193,4 @@ void panel_backward(const double* factor, double* x, std::size_t rows) noexcept 
   }
 }
 
-void panel_subtract_product(double* out, const double* w, const double* x, std::size_t rows) noexcept {
-  for (std::size_t begin = 0; begin < rows; begin += panel_width) subtract_plain(out, w + begin * rows, x + begin, rows);
-}
-
-void panel_subtract_transposed_product(double* out, const double* w, const double* x, std::size_t rows) noexcept {
-  for (std::size_t begin = 0; begin < rows; begin += panel_width) subtract_transposed(out + begin, w + begin * rows, x, rows);
-}
-
 }  // namespace lanescape::kernels::LANESCAPE_ISA

@@ -75,8 +75,7 @@ struct PanelAlgebraChecks {
   const kernels::KernelTable& table;
   Check cholesky{table, "panel_cholesky", tolerance::vector_sum}, gram{table, "panel_subtract_gram", tolerance::vector_sum},
       solve{table, "panel_solve_transposed", tolerance::vector_sum}, forward{table, "panel_forward", tolerance::vector_sum},
-      backward{table, "panel_backward", tolerance::vector_sum}, product{table, "panel_subtract_product", tolerance::vector_sum},
-      transposed{table, "panel_subtract_transposed_product", tolerance::vector_sum};
+      backward{table, "panel_backward", tolerance::vector_sum};
 
   // U^T U is the matrix; and one that is not positive definite in its last row is refused.
   void add_cholesky(const std::string& name, const PanelMatrix& matrix) {
@@ -143,26 +142,6 @@ struct PanelAlgebraChecks {
     forward.add(name, worst_forward);
     backward.add(name, worst_backward);
   }
-
-  void add_products(const std::string& name, const PanelMatrix& w, const AlignedArray& x, const AlignedArray& before) {
-    AlignedArray plain = before, turned = before;
-    table.panel_subtract_product(plain.data(), w.elements.data(), x.data(), w.rows);
-    table.panel_subtract_transposed_product(turned.data(), w.elements.data(), x.data(), w.rows);
-    double worst_plain = 0.0, worst_turned = 0.0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      TermSum of_plain, of_turned;
-      of_plain.add(static_cast<long double>(before[i]) - plain[i]);
-      of_turned.add(static_cast<long double>(before[i]) - turned[i]);
-      for (std::size_t k = 0; i < w.rows && k < w.rows; ++k) {
-        of_plain.add(-static_cast<long double>(w.at(i, k)) * x[k]);
-        of_turned.add(-static_cast<long double>(w.at(k, i)) * x[k]);
-      }
-      worst_plain = std::max(worst_plain, relative_to_terms(of_plain));
-      worst_turned = std::max(worst_turned, relative_to_terms(of_turned));
-    }
-    product.add(name, worst_plain);
-    transposed.add(name, worst_turned);
-  }
 };
 
 }  // namespace
@@ -179,10 +158,9 @@ std::vector<Deviation> verify_panel_algebra(const kernels::KernelTable& table) {
     checks.add_gram(name, symmetric, w);
     checks.add_solve(name, factor, w);
     checks.add_substitutions(name, factor, random_vector(rows, 3));
-    checks.add_products(name, w, random_vector(rows, 3), random_vector(rows, 4));
   }
-  return {checks.cholesky.deviation, checks.gram.deviation,    checks.solve.deviation,     checks.forward.deviation,
-          checks.backward.deviation, checks.product.deviation, checks.transposed.deviation};
+  return {checks.cholesky.deviation, checks.gram.deviation, checks.solve.deviation, checks.forward.deviation,
+          checks.backward.deviation};
 }
 
 }  // namespace lanescape
