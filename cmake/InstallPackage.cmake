@@ -41,7 +41,7 @@ endif()
 # For C, and for Fortran with the module of bindings/fortran.
 lanescape_install_component(C lanescape_c)
 install(FILES ${PROJECT_SOURCE_DIR}/src/api/lanescape/lanescape.h ${PROJECT_SOURCE_DIR}/src/api/lanescape/dynamics.h
-              ${PROJECT_SOURCE_DIR}/src/api/lanescape/engine.h
+              ${PROJECT_SOURCE_DIR}/src/api/lanescape/engine.h ${PROJECT_SOURCE_DIR}/src/api/lanescape/listed_potential.h
               ${PROJECT_SOURCE_DIR}/src/api/lanescape/shortening.h ${PROJECT_SOURCE_DIR}/src/api/lanescape/states.h
               ${PROJECT_BINARY_DIR}/generated/lanescape/version.h
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lanescape COMPONENT C)

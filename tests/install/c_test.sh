@@ -70,7 +70,7 @@ mkdir "$work/cxx"
 logged cxx "$cxx" -x c++ -std=c++20 -fno-exceptions -fno-rtti "$hosts/c/energy.c" $(pkg-config --cflags --libs lanescape-c) -o "$work/cxx/energy"
 check_energy "$work/cxx" "C++ without exceptions"
 
-for header in lanescape.h dynamics.h shortening.h states.h; do
+for header in lanescape.h dynamics.h engine.h listed_potential.h shortening.h states.h; do
   echo "#include <lanescape/$header>" >"$work/header.c"
   logged "$header" "$cc" -std=c11 -pedantic -Wall -Wextra -Werror -I"$prefix/include" -fsyntax-only "$work/header.c"
   logged "$header" "$cxx" -x c++ -std=c++11 -pedantic -Wall -Wextra -Werror -I"$prefix/include" -fsyntax-only "$work/header.c"
