@@ -39,8 +39,9 @@ def input_of(pair, folder):
 
 class Program:
     def __init__(self, program, folder, modules):
-        self.program, self.folder = program, folder
-        self.environment = {**os.environ, **OPENMPI_AS_ROOT, "OMP_NUM_THREADS": "1", "LANESCAPE_ENGINES": str(modules),
+        self.program, self.folder, self.temporary = program, folder, folder / "tmp"
+        self.temporary.mkdir()
+        self.environment = {**os.environ, **OPENMPI_AS_ROOT, "OMP_NUM_THREADS": "1", "LANESCAPE_ENGINES": str(modules), "TMPDIR": str(self.temporary),
                             "OMPI_MCA_mpi_yield_when_idle": "1"}
 
     def command(self, *options, ranks=1):
@@ -130,7 +131,7 @@ def check_refusals(program, text):
     assert "lanescape-gromacs.so" in program.refusal(*pair, "gromacs:in")
     assert "an engine and its input" in program.refusal(*pair, "lammps")
     assert "--pair" in program.refusal("--landscape", "lammps:in.lmp")
-    assert not list(Path(tempfile.gettempdir()).glob("lanescape-lammps-*.log"))
+    assert not list(program.temporary.glob("lanescape-lammps-*.log"))
 
 
 def main():
