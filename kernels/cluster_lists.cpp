@@ -1,7 +1,6 @@
 #include "kernel_declarations.hpp"
 #include "loops/clusters.hpp"
 
-// What is done with clusters beside the evaluation of their pairs.
 // No round of the loop that follows writes what another reads.
 #ifdef __clang__
 #define LANESCAPE_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
@@ -9,6 +8,7 @@
 #define LANESCAPE_INDEPENDENT _Pragma("GCC ivdep")
 #endif
 
+// What is done with clusters beside the evaluation of their pairs.
 namespace lanescape::kernels::LANESCAPE_ISA {
 namespace {
 

@@ -54,7 +54,8 @@ struct DomainPotential::Implementation {
         unit(model.length_unit()),
         reduced(model.in_unit(unit)),
         reach(reduced.largest_cutoff() + domain_skin) {
-    const HostListSums allowed(reduced, *table, HostListSums::Lists::gradient, checked_threads(options.threads));
+    check_without_box(model);
+    checked_threads(options.threads);
   }
 
   void set(std::span<const int> given, std::span<const int> domain) {
@@ -74,8 +75,8 @@ struct DomainPotential::Implementation {
     whole.reset();
   }
 
-  // Positions inside a box with room around them, so that no image is near.
-  const AlignedArray& place(const Vectors<const double>& host) {
+  // Puts the positions inside a box with room around them, so that no image is near.
+  void place(const Vectors<const double>& host) {
     const std::size_t slots = arrays->layout().slots();
     positions = arrays->positions(host);
     bool fits = sums != nullptr;
@@ -91,7 +92,6 @@ struct DomainPotential::Implementation {
     for (std::size_t axis = 0; axis < 3; ++axis)
       for (const auto& block : arrays->layout().blocks())
         for (std::size_t k = block.begin; k < block.begin + block.count; ++k) positions[axis * slots + k] -= corner[axis];
-    return positions;
   }
 
   std::pair<double, double> extent(std::size_t axis) const {

@@ -13,16 +13,21 @@
 
 namespace lanescape {
 
+void check_without_box(const PairModel& model) {
+  if (model.form->has_diameters)
+    throw_bad_input(fmt::format("model {} has diameters of particles: potentials without a box do not know them", model.name));
+  if (model.truncation == Truncation::tail)
+    throw_bad_input(
+        fmt::format("model {} has truncation tail: without a box use plain, the host adds what the volume gives", model.name));
+}
+
 HostListSums::HostListSums(const PairModel& model, const kernels::KernelTable& table, Lists lists, int threads)
     : kernels_(&table.pair_kernels(model.kernel_form().kernel)),
       lists_(lists),
       threads_(threads),
       pairs_(pair_parameters(model)),
       species_(model.species.size()) {
-  if (model.form->has_diameters)
-    throw_bad_input(fmt::format("model {} has diameters of particles: lists of a host do not know them", model.name));
-  if (model.truncation == Truncation::tail)
-    throw_bad_input(fmt::format("model {} has truncation tail: over lists of a host, which has the volume, use plain", model.name));
+  check_without_box(model);
   if (species_ > HostRows::most_species)
     throw_bad_input(
         fmt::format("{} species are not allowed over lists of a host: at most {} are", species_, HostRows::most_species));

@@ -10,6 +10,9 @@
 
 namespace lanescape {
 
+// Throws Error(bad_input) for what potentials without a box do not know: diameters of particles, long-range corrections.
+void check_without_box(const PairModel& model);
+
 // A pair potential over lists that a host has made. Bits do not depend on the number of threads.
 class HostListSums {
  public:
@@ -20,8 +23,8 @@ class HostListSums {
     half       // each pair once
   };
 
-  // `model` in a unit of its own, to which positions and results refer. Throws Error(bad_input) for what such lists do not know:
-  // diameters of particles, long-range corrections.
+  // `model` in a unit of its own, to which positions and results refer. Throws what check_without_box() does, and
+  // Error(bad_input) for more species than HostRows takes.
   HostListSums(const PairModel& model, const kernels::KernelTable& table, Lists lists, int threads);
 
   // Throws Error(bad_input) for points that do not exist; there is then no list.
