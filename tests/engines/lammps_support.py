@@ -9,10 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-
-def skip(reason):
-    print(f"skipped: {reason}")
-    sys.exit(77)
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from environments import skip  # noqa: E402
 
 
 @dataclasses.dataclass

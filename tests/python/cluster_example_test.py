@@ -13,8 +13,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python_package"))
-from wheel_test import environment, install  # noqa: E402
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from environments import environment, install  # noqa: E402
 
 if len(sys.argv) < 2:
     sys.exit(__doc__)

@@ -17,6 +17,9 @@ import tempfile
 import zipfile
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from environments import environment, install  # noqa: E402
+
 LIBRARIES = ("ld-linux", "libc.", "libm.", "libgcc_s.", "libstdc++.", "linux-vdso")
 LARGEST = 2e6  # bytes
 
@@ -24,26 +27,6 @@ LARGEST = 2e6  # bytes
 def run(*command, **options):
     print("+", *command, flush=True)
     subprocess.run([str(word) for word in command], check=True, **options)
-
-
-def skip(reason):
-    print(f"skipped: {reason}")
-    sys.exit(77)
-
-
-def environment(folder, python, *, system):
-    """The interpreter of a new virtual environment."""
-    made = subprocess.run([python, "-m", "venv", *(["--system-site-packages"] if system else []), folder / "venv"], capture_output=True, text=True)
-    if made.returncode != 0:
-        skip(f"{python} makes no virtual environment (Debian: package python3-venv): {' '.join((made.stderr + made.stdout).split())}")
-    return folder / "venv/bin/python"
-
-
-def install(python, *packages):
-    done = subprocess.run([python, "-m", "pip", "install", "--quiet", *packages], capture_output=True, text=True)
-    if done.returncode != 0:
-        reason = (done.stderr.strip().splitlines() or ["no message"])[-1]
-        skip(f"pip cannot install {' '.join(packages)} here: {reason}")
 
 
 def sdist(folder, python, source):
