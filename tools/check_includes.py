@@ -20,7 +20,7 @@ STAGES = {
     "interaction": 4,
     "landscape": 5,
     "dynamics": 6, "stepper": 6, "insertion": 6,
-    "path": 7,
+    "path": 7, "flow": 7,
     "observables": 8,
     "run": 9, "verification": 9,
     "api": 10, "capi": 10,

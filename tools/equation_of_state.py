@@ -2,13 +2,14 @@
 """What equations of state of the Lennard-Jones fluid say, as JSON: tools/equation_of_state.py --temperature 2.5 --density 0.8
 
 or, from density 0.4 and T = 2.5 at constant energy to density 0.8, tools/equation_of_state.py --process 0.4 2.5 --to 0.8
+--cutoff RC: of the potential truncated at RC and shifted to zero there, in mean field.
 Exit status 0, or 2 with one line on stderr for input that cannot be used.
 
   johnson          Johnson, Zollweg, Gubbins, Mol. Phys. 78, 591 (1993), doi:10.1080/00268979300100411
   kolafa-nezbeda   Kolafa, Nezbeda, Fluid Phase Equilib. 100, 1 (1994), doi:10.1016/0378-3812(94)80001-4
   thol             Thol, Rutkai, Koester, Lustig, Span, Vrabec, J. Phys. Chem. Ref. Data 45, 023101 (2016), doi:10.1063/1.4945000
 
-All are of the fluid without a cutoff: compare simulations with long-range corrections. They were fitted to T from about 0.7 to 6, 10
+All are of the fluid without a cutoff unless one is given: compare simulations with long-range corrections. They were fitted to T from about 0.7 to 6, 10
 and 9 and up to freezing; beyond, and inside the binodal, they mean little. sigma = epsilon = k_B = 1; energies are per particle.
 """
 
@@ -24,6 +25,7 @@ import numpy as np
 DATA = Path(__file__).resolve().parent / "data"
 # Wider than any fit, and all three are finite inside: the hard spheres of Kolafa and Nezbeda fill space at density 1.5 below T = 0.13.
 TEMPERATURES, DENSITIES = (0.3, 100.0), (0.0, 1.5)
+CUTOFFS = (2.0, 1e6)
 STEP = 1e-30  # of derivatives in the complex plane: no difference is taken, so that nothing cancels, and the error is of order STEP^2
 
 
@@ -88,6 +90,26 @@ class EquationOfState:
     def c_v(self, temperature, density):
         """3/2 + (d e_ex/d T)_rho  [k_B]"""
         return 1.5 + self.c_v_residual(temperature, density)
+
+    def dp_drho(self, temperature, density):
+        """(d p/d rho)_T  [epsilon]; the second derivative of rho a_r is Cauchy's integral over a circle of 16 points"""
+        t, rho = check(temperature, density)
+        turns, radius = np.exp(2j * math.pi * np.arange(16) / 16), 0.02
+        points = rho[..., None] + radius * turns
+        second = 2.0 * (points * self._a_r(t[..., None], points) / turns**2).mean(-1).real / radius**2
+        return t + rho * second
+
+    def dp_dt(self, temperature, density):
+        """(d p/d T)_rho  [k_B/sigma^3], by Maxwell's relation"""
+        t, rho = check(temperature, density)
+        return (self.pressure(t, rho) - rho**2 * self.de_ex_drho(t, rho)) / t
+
+    def sound_velocity(self, temperature, density):
+        """c, c^2 = (d p/d rho)_T + T (d p/d T)_rho^2/(rho^2 c_v); mass 1; nan where c^2 < 0, in the binodal  [sqrt(epsilon/m)]"""
+        t, rho = check(temperature, density)
+        heated = np.divide(self.dp_dt(t, rho), rho, out=np.ones(np.broadcast(t, rho).shape), where=rho > 0.0)
+        squared = self.dp_drho(t, rho) + t * heated**2 / self.c_v(t, rho)
+        return np.sqrt(np.where(squared >= 0.0, squared, math.nan))
 
 
 class PowersOfTemperature(EquationOfState):
@@ -180,14 +202,32 @@ class Thol(EquationOfState):
         return t * (terms * (self.t - 2.0 * self.beta * tau * (tau - self.gamma))).sum(-1)
 
 
+class TruncatedAndShifted(EquationOfState):
+    """Another equation less the mean field of what is lost at a cutoff: rho [2 pi int_c^inf u r^2 dr + (2 pi/3) c^3 u(c)]."""
+
+    def __init__(self, whole, cutoff):
+        if not CUTOFFS[0] <= cutoff <= CUTOFFS[1]:
+            raise Unusable(f"cutoff {cutoff:g}: must be from {CUTOFFS[0]:g} to {CUTOFFS[1]:g}")
+        tail = 4.0 * (cutoff**-9 / 9.0 - cutoff**-3 / 3.0)
+        self.name, self.whole = whole.name, whole
+        self.lost = 2.0 * math.pi * (tail + cutoff**3 / 3.0 * 4.0 * (cutoff**-12 - cutoff**-6))
+
+    def _a_r(self, t, rho):
+        return self.whole._a_r(t, rho) - rho * self.lost
+
+    def _e_ex(self, t, rho):
+        return self.whole._e_ex(t, rho) - rho * self.lost
+
+
 EQUATIONS = {equation.name: equation for equation in (Johnson, KolafaNezbeda, Thol)}
 
 
-def load(name):
-    """The equation of state of that name; Unusable where there is none, OSError where its file in data/ is missing."""
+def load(name, cutoff=None):
+    """The equation of state of that name, of the potential truncated and shifted where a cutoff is given; Unusable where there is none,
+    OSError where its file in data/ is missing."""
     if name not in EQUATIONS:
         raise Unusable(f"equation of state {name}: must be one of {', '.join(EQUATIONS)}")
-    return EQUATIONS[name]()
+    return EQUATIONS[name]() if cutoff is None else TruncatedAndShifted(EQUATIONS[name](), cutoff)
 
 
 def constant_energy_process(eos, density0, temperature0, densities):
@@ -219,10 +259,15 @@ class Arguments(argparse.ArgumentParser):
         sys.exit(2)
 
 
+def finite(value):
+    """As a number for JSON, which has no nan: None instead."""
+    return float(value) if np.isfinite(value) else None
+
+
 def answer(eos, options):
     if options.process is None:
-        names = ("a_r", "e_ex", "pressure", "mu_ex", "de_ex_drho", "c_v_residual", "c_v")
-        return {name: float(getattr(eos, name)(options.temperature, options.density)) for name in names}
+        names = ("a_r", "e_ex", "pressure", "mu_ex", "de_ex_drho", "c_v_residual", "c_v", "sound_velocity")
+        return {name: finite(getattr(eos, name)(options.temperature, options.density)) for name in names}
     start, temperature = options.process
     run = constant_energy_process(eos, start, temperature, [start, *(start + (options.to - start) * k / 8 for k in range(1, 9))])
     return {name: values.tolist() for name, values in run.items()}
@@ -234,11 +279,12 @@ def main(arguments):
     parser.add_argument("--density", type=float, help=f"from {DENSITIES[0]:g} to {DENSITIES[1]:g}")
     parser.add_argument("--process", type=float, nargs=2, metavar=("DENSITY", "TEMPERATURE"), help="start of a process of constant energy")
     parser.add_argument("--to", type=float, metavar="DENSITY", help="its end")
+    parser.add_argument("--cutoff", type=float, metavar="RC", help="truncate the potential there and shift it to zero; default: neither")
     options = parser.parse_args(arguments)
-    if [value is None for value in vars(options).values()] not in ([True, True, False, False], [False, False, True, True]):
+    if [value is None for name, value in vars(options).items() if name != "cutoff"] not in ([True, True, False, False], [False, False, True, True]):
         parser.error("give --temperature and --density, or --process and --to")
     try:
-        print(json.dumps({name: answer(load(name), options) for name in EQUATIONS}, indent=2))
+        print(json.dumps({name: answer(load(name, options.cutoff), options) for name in EQUATIONS}, indent=2))
     except (Unusable, OSError) as error:
         print(f"equation_of_state.py: {error}", file=sys.stderr)
         return 2

@@ -133,10 +133,38 @@ class Thermodynamics(unittest.TestCase):
                 p_t = slope(lambda x: eos.pressure(x, rho), t, 2e-4 * t)
                 self.assert_close(rho**2 * change, eos.pressure(t, rho) - t * p_t, t * p_t, name)
 
+    def test_the_sound_velocity_is_the_slope_of_pressure_along_an_isentrope(self):
+        for name, eos in ALL.items():
+            for t, rho in STATES:
+                along = slope(lambda x: eos.pressure(x, rho), t, 2e-4 * t)
+                at_t = slope(lambda x: eos.pressure(t, x), rho, 2e-4 * rho)
+                self.assert_close(eos.dp_dt(t, rho), along, along, name)
+                self.assert_close(eos.dp_drho(t, rho), at_t, eos.pressure(t, rho) / rho, name)
+                squared = at_t + t * along**2 / (rho**2 * eos.c_v(t, rho))
+                if squared > 0.0:
+                    self.assertAlmostEqual(eos.sound_velocity(t, rho) / math.sqrt(squared), 1.0, delta=1e-6, msg=name)
+            self.assertAlmostEqual(eos.sound_velocity(2.5, 0.0), math.sqrt(2.5 * 5.0 / 3.0), delta=1e-12, msg=name)
+        self.assertTrue(math.isnan(ALL["thol"].sound_velocity(0.7, 0.5)))
+
+    def test_a_truncated_potential_loses_its_mean_field(self):
+        for cutoff, lost in ((3.0, -0.6200), (2.5, -1.0694)):
+            def u(r):
+                return 4.0 * (r**-12 - r**-6)
+            integral = 2.0 * math.pi * (quad(lambda r: u(r) * r * r, cutoff, math.inf)[0] + u(cutoff) * cutoff**3 / 3.0)
+            for name, eos in ALL.items():
+                short = load(name, cutoff)
+                self.assertAlmostEqual(short.lost, lost, delta=5e-5)
+                self.assertAlmostEqual(short.lost, integral, delta=1e-7)
+                self.assertAlmostEqual(short.e_ex(2.5, 0.5), eos.e_ex(2.5, 0.5) - 0.5 * short.lost, delta=1e-12)
+                self.assertAlmostEqual(short.pressure(2.5, 0.5), eos.pressure(2.5, 0.5) - 0.25 * short.lost, delta=1e-12)
+                self.assertAlmostEqual(short.c_v(2.5, 0.5), eos.c_v(2.5, 0.5), delta=1e-12)
+        self.assertAlmostEqual(load("thol", 3.0).sound_velocity(2.5, 0.5), 4.1221, delta=5e-5)
+        self.assertAlmostEqual(load("thol", 3.0).sound_velocity(2.5, 0.7), 6.2924, delta=5e-5)
+
     def test_arrays_give_what_their_elements_give(self):
         t, rho = np.array([1.0, 2.5]), np.array([[0.1], [0.5], [0.8]])
         for eos in ALL.values():
-            for f in (eos.a_r, eos.e_ex, eos.pressure, eos.mu_ex, eos.de_ex_drho, eos.c_v):
+            for f in (eos.a_r, eos.e_ex, eos.pressure, eos.mu_ex, eos.de_ex_drho, eos.c_v, eos.sound_velocity):
                 values = f(t, rho)
                 self.assertEqual(values.shape, (3, 2))
                 np.testing.assert_allclose(values, [[f(x, y[0]) for x in t] for y in rho], rtol=1e-11)
@@ -203,7 +231,16 @@ class Program(unittest.TestCase):
         self.assertEqual(list(printed), list(EQUATIONS))
         for name, eos in ALL.items():
             self.assertEqual(printed[name], {key: float(getattr(eos, key)(2.5, 0.8)) for key in printed[name]})
-            self.assertEqual(set(printed[name]), {"a_r", "e_ex", "pressure", "mu_ex", "de_ex_drho", "c_v_residual", "c_v"})
+            self.assertEqual(set(printed[name]), {"a_r", "e_ex", "pressure", "mu_ex", "de_ex_drho", "c_v_residual", "c_v",
+                                                  "sound_velocity"})
+
+    def test_a_cutoff_changes_what_is_printed(self):
+        printed = json.loads(self.run_script("--temperature", "2.5", "--density", "0.5", "--cutoff", "3").stdout)
+        for name in EQUATIONS:
+            self.assertEqual(printed[name]["sound_velocity"], float(load(name, 3.0).sound_velocity(2.5, 0.5)))
+        self.assertIsNone(json.loads(self.run_script("--temperature", "0.7", "--density", "0.5").stdout)["thol"]["sound_velocity"])
+        for cutoff in ("0", "-3", "nan", "1.9"):
+            self.assert_refuses("cutoff", "--temperature", "2.5", "--density", "0.5", f"--cutoff={cutoff}")
 
     def test_a_process_is_printed_for_all_equations(self):
         run = self.run_script("--process", "0.4", "2.5", "--to", "0.8")
