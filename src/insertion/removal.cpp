@@ -12,6 +12,29 @@ namespace {
 
 constexpr EnumWord<RemovalRule> rules[] = {{RemovalRule::random, "random"}, {RemovalRule::least_disturbance, "least-disturbance"}};
 
+// energy_of(particle): what the fluid's energy falls by without it.
+template <class EnergyOf>
+Removal choose(std::span<const std::size_t> candidates, RemovalRule rule, double energy, const CounterRandom& random,
+               std::uint64_t number, const EnergyOf& energy_of) {
+  if (rule == RemovalRule::random) {
+    const std::size_t chosen = candidates[random.below(static_cast<std::uint32_t>(candidates.size()), number, 0, 6)];
+    return {chosen, energy_of(chosen)};
+  }
+  Removal best{candidates.front(), energy_of(candidates.front())};
+  for (const std::size_t i : candidates.subspan(1)) {
+    const Removal other{i, energy_of(i)};
+    if (std::abs(other.energy - energy) < std::abs(best.energy - energy)) best = other;
+  }
+  return best;
+}
+
+double energy_in(ProbeField& field, const Point& position) {
+  field.remove(position, field.species());
+  const double decrease = field.energy(position);
+  field.insert(position, field.species());
+  return decrease;
+}
+
 }  // namespace
 
 const char* to_string(RemovalRule rule) { return word_of(rules, rule); }
@@ -26,28 +49,20 @@ std::optional<Removal> choose_removal(const PairModel& model, const Configuratio
       candidates.push_back(i);
   }
   if (candidates.empty()) return std::nullopt;
-  ProbeField field(model, fluid, species, kernel_table(isa));
-  const auto energy_of = [&](std::size_t i) {
-    if (model.form->has_diameters) {
-      ProbeField own(model, fluid, species, kernel_table(isa), fluid.diameters[i]);
-      own.remove(fluid.position(i), species);
-      return own.energy(fluid.position(i));
-    }
-    field.remove(fluid.position(i), species);
-    const double decrease = field.energy(fluid.position(i));
-    field.insert(fluid.position(i), species);
-    return decrease;
-  };
-  if (rule == RemovalRule::random) {
-    const std::size_t chosen = candidates[random.below(static_cast<std::uint32_t>(candidates.size()), number, 0, 6)];
-    return Removal{chosen, energy_of(chosen)};
+  if (!model.form->has_diameters) {
+    ProbeField field(model, fluid, species, kernel_table(isa));
+    return choose_removal(field, fluid, candidates, rule, energy, random, number);
   }
-  Removal best{candidates.front(), energy_of(candidates.front())};
-  for (const std::size_t i : candidates) {
-    const Removal other{i, energy_of(i)};
-    if (std::abs(other.energy - energy) < std::abs(best.energy - energy)) best = other;
-  }
-  return best;
+  return choose(candidates, rule, energy, random, number, [&](std::size_t i) {
+    ProbeField own(model, fluid, species, kernel_table(isa), fluid.diameters[i]);
+    own.remove(fluid.position(i), species);
+    return own.energy(fluid.position(i));
+  });
+}
+
+Removal choose_removal(ProbeField& field, const Configuration& fluid, std::span<const std::size_t> candidates, RemovalRule rule,
+                       double energy, const CounterRandom& random, std::uint64_t number) {
+  return choose(candidates, rule, energy, random, number, [&](std::size_t i) { return energy_in(field, fluid.position(i)); });
 }
 
 }  // namespace lanescape

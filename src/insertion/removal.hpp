@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "configuration/configuration.hpp"
@@ -10,6 +11,7 @@
 #include "core/random.hpp"
 #include "dispatch/isa.hpp"
 #include "insertion/insertion.hpp"
+#include "interaction/pair/probe_field.hpp"
 
 namespace lanescape {
 
@@ -30,5 +32,8 @@ struct Removal {
 std::optional<Removal> choose_removal(const PairModel& model, const Configuration& fluid, int species, RemovalRule rule,
                                       const std::optional<Region>& region, double energy, const CounterRandom& random,
                                       std::uint64_t number, Isa isa);
+// Chooses one of some particles, at least one, all of the field's species and in the field; it is still there afterwards.
+Removal choose_removal(ProbeField& field, const Configuration& fluid, std::span<const std::size_t> candidates, RemovalRule rule,
+                       double energy, const CounterRandom& random, std::uint64_t number);
 
 }  // namespace lanescape

@@ -34,6 +34,8 @@ class PairLandscape final : public SoftLandscape {
     const PairInteraction::Evaluation e = interaction_.energy_and_gradient(position, gradient);
     return {e.energy, e.virial};
   }
+  // Of each slot: half of each of its pairs [epsilon]; zero for padding. Costs an evaluation.
+  void energies(const AlignedArray& position, AlignedArray& energies) { interaction_.energies(position, energies); }
 
  private:
   std::size_t dimension_, particles_;

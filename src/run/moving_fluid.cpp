@@ -1,29 +1,9 @@
 #include "run/moving_fluid.hpp"
 
-#include <algorithm>
-
 #include "configuration/lattice.hpp"
 #include "insertion/insertion.hpp"
 
 namespace lanescape {
-
-void FluidState::add(int species, const std::array<double, 3>& position, const std::array<double, 3>& velocity) {
-  configuration.species.push_back(species);
-  configuration.positions.insert(configuration.positions.end(), position.begin(), position.end());
-  velocities.insert(velocities.end(), velocity.begin(), velocity.end());
-}
-
-void FluidState::exchange(Archive& archive) {
-  std::vector<std::uint64_t> species(configuration.species.begin(), configuration.species.end());
-  std::vector<double> box(configuration.box.length.begin(), configuration.box.length.end());
-  archive.field("box", box);
-  archive.field("species", species);
-  archive.field("positions", configuration.positions);
-  archive.field("velocities", velocities);
-  if (!archive.reading()) return;
-  std::copy_n(box.begin(), 3, configuration.box.length.begin());
-  configuration.species.assign(species.begin(), species.end());
-}
 
 MovingFluid::MovingFluid(const PairModel& model, const FluidState& state, double time_step, Isa isa, int threads)
     : start_(state.configuration),

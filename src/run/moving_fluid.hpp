@@ -7,23 +7,12 @@
 #include "configuration/pair_model.hpp"
 #include "configuration/particle_layout.hpp"
 #include "core/aligned_array.hpp"
-#include "core/archive.hpp"
 #include "dispatch/isa.hpp"
+#include "dynamics/fluid_state.hpp"
 #include "dynamics/velocity_verlet.hpp"
 #include "landscape/pair_landscape.hpp"
 
 namespace lanescape {
-
-// Positions and velocities in the user's order. The state of a fluid between two runs of molecular dynamics, while its number of
-// particles may change.
-struct FluidState {
-  Configuration configuration;
-  std::vector<double> velocities;  // 3N [sigma / time]
-
-  void add(int species, const std::array<double, 3>& position, const std::array<double, 3>& velocity);
-  // Archives box, species, positions and velocities.
-  void exchange(Archive& archive);
-};
 
 // Molecular dynamics of a soft fluid at constant energy. Its bits depend only on the initial state, the time step and the
 // instruction set.
