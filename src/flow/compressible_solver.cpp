@@ -39,7 +39,7 @@ void TransportCoefficients::check() const {
   check_not_negative("heat conductivity", heat_conductivity);
 }
 
-double TransportCoefficients::largest_diffusivity(const FluidState& fluid) const {
+double TransportCoefficients::largest_diffusivity(const ThermodynamicState& fluid) const {
   return std::max(4.0 / 3.0 * shear_viscosity + bulk_viscosity, heat_conductivity / fluid.heat_capacity) / fluid.density;
 }
 
@@ -77,7 +77,7 @@ void CompressibleSolver::look() {
     FlowState& cell = flow_[i];
     for (std::size_t axis = 0; axis < 3; ++axis) cell.velocity[axis] = amounts[1 + axis] / amounts[0];
     const double energy = amounts[4] / amounts[0] - 0.5 * dot(cell.velocity, cell.velocity);
-    const std::optional<FluidState> found = equation_->at_energy(amounts[0], energy, start_[i]);
+    const std::optional<ThermodynamicState> found = equation_->at_energy(amounts[0], energy, start_[i]);
     if (!found || !found->stable())
       throw Error(
           ErrorCode::goal_not_reached,
@@ -94,7 +94,7 @@ void CompressibleSolver::look_from_here() {
 }
 
 CompressibleSolver::Primitive CompressibleSolver::primitive(const FlowState& state) {
-  const FluidState& fluid = state.fluid;
+  const ThermodynamicState& fluid = state.fluid;
   return {fluid.density, state.velocity[0], state.velocity[1], state.velocity[2], fluid.pressure, fluid.density * fluid.energy};
 }
 

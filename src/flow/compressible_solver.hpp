@@ -22,7 +22,7 @@ struct TransportCoefficients {
   // Throws Error(bad_input) unless all are finite and at least 0.
   void check() const;
   // The larger of the diffusivities of momentum along x and of heat.
-  double largest_diffusivity(const FluidState& fluid) const;
+  double largest_diffusivity(const ThermodynamicState& fluid) const;
 };
 
 struct SolverGrid {

@@ -6,7 +6,7 @@
 namespace lanescape {
 
 // A homogeneous fluid at rest, of particles of mass 1. Units of epsilon, sigma and k_B = 1.
-struct FluidState {
+struct ThermodynamicState {
   double density = 0.0;                  // [1/sigma^3]
   double temperature = 0.0;              // [epsilon]
   double energy = 0.0;                   // internal energy per particle: 3/2 T and the excess energy [epsilon]
@@ -28,10 +28,10 @@ class EquationOfState {
  public:
   virtual ~EquationOfState() = default;
   // Throws Error(bad_input) outside the range of the equation.
-  virtual FluidState at_temperature(double density, double temperature) const = 0;
+  virtual ThermodynamicState at_temperature(double density, double temperature) const = 0;
   // The state of this density and internal energy per particle; none where no temperature in the range gives it. The search starts
   // at the temperature `near`, on which the last bits depend.
-  virtual std::optional<FluidState> at_energy(double density, double energy, double near) const = 0;
+  virtual std::optional<ThermodynamicState> at_energy(double density, double energy, double near) const = 0;
 };
 
 }  // namespace lanescape

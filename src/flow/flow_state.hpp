@@ -9,7 +9,7 @@ namespace lanescape {
 
 // A fluid in motion along x, with velocities along all axes [sqrt(epsilon/m)].
 struct FlowState {
-  FluidState fluid;
+  ThermodynamicState fluid;
   Point velocity{};
 };
 

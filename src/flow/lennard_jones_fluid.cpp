@@ -80,9 +80,9 @@ LennardJonesFluid::LennardJonesFluid(double cutoff) {
   lost_ = 2.0 * std::numbers::pi * (tail + shift);
 }
 
-FluidState LennardJonesFluid::unchecked(double density, double temperature) const {
+ThermodynamicState LennardJonesFluid::unchecked(double density, double temperature) const {
   const TholSums sums = thol_sums(density, temperature);
-  FluidState state;
+  ThermodynamicState state;
   state.density = density;
   state.temperature = temperature;
   state.energy = temperature * (1.5 + sums.y) - density * lost_;
@@ -93,17 +93,17 @@ FluidState LennardJonesFluid::unchecked(double density, double temperature) cons
   return state;
 }
 
-FluidState LennardJonesFluid::at_temperature(double density, double temperature) const {
+ThermodynamicState LennardJonesFluid::at_temperature(double density, double temperature) const {
   check_thol_range(density, temperature);
   return unchecked(density, temperature);
 }
 
 // Newton's method between bounds that close in. Where a step leaves them, or c_v is not positive, it is a bisection.
-std::optional<FluidState> LennardJonesFluid::at_energy(double density, double energy, double near) const {
+std::optional<ThermodynamicState> LennardJonesFluid::at_energy(double density, double energy, double near) const {
   if (!thol_density_in_range(density) || !std::isfinite(energy)) return std::nullopt;
   double low = lowest_temperature, high = highest_temperature, t = near >= low && near <= high ? near : 1.0;
   for (int k = 0; k < 200; ++k) {
-    FluidState state = unchecked(density, t);
+    ThermodynamicState state = unchecked(density, t);
     const double missing = energy - state.energy, step = missing / state.heat_capacity;
     if (state.heat_capacity > 0.0 && std::abs(step) <= 1e-8 * t && t + step >= lowest_temperature &&
         t + step <= highest_temperature) {

@@ -17,13 +17,13 @@ class LennardJonesFluid final : public EquationOfState {
   // particles are taken as uncorrelated. Throws Error(bad_input) unless the cutoff is from 2 to 1e6 [sigma].
   explicit LennardJonesFluid(double cutoff);
 
-  FluidState at_temperature(double density, double temperature) const override;
-  std::optional<FluidState> at_energy(double density, double energy, double near) const override;
+  ThermodynamicState at_temperature(double density, double temperature) const override;
+  std::optional<ThermodynamicState> at_energy(double density, double energy, double near) const override;
   // Residual Helmholtz energy per particle: less that of the ideal gas at this temperature and density [epsilon].
   double residual_helmholtz_energy(double density, double temperature) const;
 
  private:
-  FluidState unchecked(double density, double temperature) const;
+  ThermodynamicState unchecked(double density, double temperature) const;
 
   // What the truncation takes from the Helmholtz energy per particle and density [epsilon sigma^3].
   double lost_ = 0.0;

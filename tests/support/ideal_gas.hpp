@@ -9,10 +9,10 @@ namespace lanescape::testing {
 // Without interactions: p = rho T, e = 3/2 T, gamma = 5/3.
 class IdealGas final : public EquationOfState {
  public:
-  FluidState at_temperature(double density, double temperature) const override {
+  ThermodynamicState at_temperature(double density, double temperature) const override {
     return {density, temperature, 1.5 * temperature, density * temperature, 1.5, temperature, density};
   }
-  std::optional<FluidState> at_energy(double density, double energy, double) const override {
+  std::optional<ThermodynamicState> at_energy(double density, double energy, double) const override {
     if (!(density > 0.0 && energy > 0.0)) return std::nullopt;
     return at_temperature(density, energy / 1.5);
   }

@@ -60,7 +60,7 @@ TEST(CompressibleSolver, ASmallPulseTravelsAtTheSoundVelocity) {
 }
 
 TEST(CompressibleSolver, SoundIsAttenuatedByViscosityAndHeatConduction) {
-  const FluidState fluid = at_rest().fluid;
+  const ThermodynamicState fluid = at_rest().fluid;
   // c_p/c_v = c^2/(dp/d rho)_T
   const double gamma = fluid.sound_velocity() * fluid.sound_velocity() / fluid.pressure_by_density;
   const double k = 2.0 * std::numbers::pi / 40.0;

@@ -27,7 +27,7 @@ TEST(LennardJonesFluid, ThePublishedTestValuesAreFound) {
       {2.0, 0.5, 1.0751638, -3.1525021, 0.31068090},         {5.0, 0.6, 6.9432008, -2.6956781, 0.31772707},
       {7.0, 1.0, 41.531352, -0.62393078, 0.73348579}};
   for (const auto& [temperature, density, pressure, energy, heat_capacity] : table) {
-    const FluidState state = LennardJonesFluid().at_temperature(density, temperature);
+    const ThermodynamicState state = LennardJonesFluid().at_temperature(density, temperature);
     EXPECT_NEAR(state.pressure, pressure, 6e-8 * std::max(0.1, pressure));
     EXPECT_NEAR(state.excess_energy(), energy, 6e-8);
     EXPECT_NEAR(state.heat_capacity - 1.5, heat_capacity, 6e-9);
@@ -38,7 +38,7 @@ TEST(LennardJonesFluid, DerivativesAreDifferences) {
   for (const LennardJonesFluid& fluid : {LennardJonesFluid(), LennardJonesFluid(2.5)})
     for (const double t : every_temperature)
       for (const double rho : every_density) {
-        const FluidState state = fluid.at_temperature(rho, t);
+        const ThermodynamicState state = fluid.at_temperature(rho, t);
         const double by_density = slope([&](double x) { return fluid.at_temperature(x, t).pressure; }, rho, 2e-4 * rho);
         const double by_temperature = slope([&](double x) { return fluid.at_temperature(rho, x).pressure; }, t, 2e-4 * t);
         const double heat_capacity = slope([&](double x) { return fluid.at_temperature(rho, x).energy; }, t, 2e-4 * t);
@@ -55,7 +55,7 @@ TEST(LennardJonesFluid, DerivativesAreDifferences) {
 
 TEST(LennardJonesFluid, TheSoundVelocityIsTheSlopeOfPressureAlongAnIsentrope) {
   const LennardJonesFluid fluid;
-  const FluidState start = fluid.at_temperature(0.6, 2.0);
+  const ThermodynamicState start = fluid.at_temperature(0.6, 2.0);
   // Along an isentrope de = p/rho^2 d rho.
   const auto pressure = [&](double rho) {
     double energy = start.energy, density = start.density;
@@ -74,8 +74,8 @@ TEST(LennardJonesFluid, TheSoundVelocityIsTheSlopeOfPressureAlongAnIsentrope) {
 
 TEST(LennardJonesFluid, TheCutoffTakesItsMeanFieldFromEnergyAndPressure) {
   for (const auto& [cutoff, lost] : {std::pair(3.0, -0.6200), std::pair(2.5, -1.0694)}) {
-    const FluidState whole = LennardJonesFluid().at_temperature(0.5, 2.5);
-    const FluidState cut = LennardJonesFluid(cutoff).at_temperature(0.5, 2.5);
+    const ThermodynamicState whole = LennardJonesFluid().at_temperature(0.5, 2.5);
+    const ThermodynamicState cut = LennardJonesFluid(cutoff).at_temperature(0.5, 2.5);
     EXPECT_NEAR(cut.energy, whole.energy - 0.5 * lost, 5e-5);
     EXPECT_NEAR(cut.pressure, whole.pressure - 0.25 * lost, 5e-5);
     EXPECT_EQ(cut.heat_capacity, whole.heat_capacity);
@@ -88,7 +88,7 @@ TEST(LennardJonesFluid, TheEnergyGivesTheTemperatureBackFromAnyStart) {
   for (const LennardJonesFluid& fluid : {LennardJonesFluid(), LennardJonesFluid(3.0)})
     for (const double t : {0.9, 1.35, 2.5, 9.0, 19.0})
       for (const double rho : {1e-6, 0.02, 0.7, 0.9}) {
-        const FluidState state = fluid.at_temperature(rho, t);
+        const ThermodynamicState state = fluid.at_temperature(rho, t);
         for (const double near : {t, 1.01 * t, 0.6, 20.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
           const auto found = fluid.at_energy(rho, state.energy, near);
           ASSERT_TRUE(found.has_value()) << rho << ' ' << t << ' ' << near;
