@@ -34,7 +34,7 @@ Conserved star_flux(const FaceSide& side, double wave, double contact) {
 }  // namespace
 
 FaceSide face_side(const FlowState& state) {
-  const FluidState& fluid = state.fluid;
+  const ThermodynamicState& fluid = state.fluid;
   return {fluid.density, state.velocity, fluid.pressure, fluid.density * fluid.energy, fluid.sound_velocity()};
 }
 
