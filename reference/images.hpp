@@ -6,13 +6,17 @@
 
 #include "reference/vector.hpp"
 
-/// Periodic images of a separation in an orthorhombic, fully periodic box.
+/// Periodic images of a separation in an orthorhombic box.
 namespace lanescape::reference {
 
 enum class ImageRule {
   all,      // every periodic image within the cutoff, a particle's own images with weight 1/2
   minimum,  // per axis the nearest image only, whatever the ratio of cutoff and box
 };
+
+/// Along which axes the box is periodic. Along an open axis there are no images.
+using Periodic = std::array<bool, 3>;
+inline constexpr Periodic all_periodic{true, true, true};
 
 struct Image {
   Vector separation;  // the separation asked for less `shift`
@@ -23,10 +27,12 @@ struct Image {
 /// Calls visit(Image) for the images of `separation` that can be nearer than `reach`, and for others that are farther. With
 /// ImageRule::minimum it calls once, for the nearest image.
 template <class Visit>
-void for_each_image(const Vector& separation, const Vector& box, double reach, ImageRule rule, const Visit& visit) {
-  Vector home;
-  std::array<int, 3> most;  // the nearest image is at most L/2 away, so one within reach is at most this many boxes from it
+void for_each_image(const Vector& separation, const Vector& box, const Periodic& periodic, double reach, ImageRule rule,
+                    const Visit& visit) {
+  Vector home{};
+  std::array<int, 3> most{};  // the nearest image is at most L/2 away, so one within reach is at most this many boxes from it
   for (std::size_t k = 0; k < 3; ++k) {
+    if (!periodic[k]) continue;
     home[k] = box[k] * std::nearbyint(separation[k] / box[k]);
     most[k] = rule == ImageRule::minimum ? 0 : static_cast<int>(std::ceil(reach / box[k] + 0.5));
   }

@@ -25,9 +25,9 @@ void add_pair(Probe& sum, const Vector& d, const PairPotential& potential, bool 
   }
 }
 
-void add_images(Probe& sum, const Vector& separation, const Vector& box, const PairPotential& potential, bool itself) {
+void add_images(Probe& sum, const Vector& separation, const Particles& fluid, const PairPotential& potential, bool itself) {
   const double r_c = cutoff(potential);
-  for_each_image(separation, box, r_c, ImageRule::all, [&](const Image& image) {
+  for_each_image(separation, fluid.box, fluid.periodic, r_c, ImageRule::all, [&](const Image& image) {
     if (itself && image.nearest) return;
     if (!(dot(image.separation, image.separation) >= r_c * r_c)) add_pair(sum, image.separation, potential, itself);
   });
@@ -62,22 +62,22 @@ Probe probe(const Probed& probed, const Particles& fluid, const PairMixture& mix
     if (!fluid.diameters.empty()) potential = between(potential, probed.diameter, fluid.diameters[j]);
     Vector separation = probed.position;
     for (std::size_t axis = 0; axis < 3; ++axis) separation[axis] -= fluid.positions[3 * j + axis];
-    add_images(sum, separation, fluid.box, potential, false);
+    add_images(sum, separation, fluid, potential, false);
   }
   const PairPotential& own = mixture.potential(probed.species, probed.species);
-  add_images(sum, {0.0, 0.0, 0.0}, fluid.box, between(own, probed.diameter, probed.diameter), true);
+  add_images(sum, {0.0, 0.0, 0.0}, fluid, between(own, probed.diameter, probed.diameter), true);
   add_tail_growth(sum, probed.species, fluid, mixture);
   return sum;
 }
 
 bool is_clear(const Vector& position, std::span<const double> clearances, std::span<const double> positions,
-              std::span<const int> species, const Vector& box) {
+              std::span<const int> species, const Vector& box, const Periodic& periodic) {
   for (std::size_t j = 0; j < species.size(); ++j) {
     const double clearance = clearances[static_cast<std::size_t>(species[j])];
     Vector separation = position;
     for (std::size_t axis = 0; axis < 3; ++axis) separation[axis] -= positions[3 * j + axis];
     bool clear = true;
-    for_each_image(separation, box, clearance, ImageRule::minimum,
+    for_each_image(separation, box, periodic, clearance, ImageRule::minimum,
                    [&](const Image& image) { clear = !(dot(image.separation, image.separation) < clearance * clearance); });
     if (!clear) return false;
   }

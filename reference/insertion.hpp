@@ -25,14 +25,14 @@ struct Probed {
   double diameter = 1.0;  // [sigma], for the polydisperse form
 };
 
-/// What the probe feels beside the particles of a periodic box. The energy is the amount by which that of the fluid would rise: the
+/// What the probe feels beside the particles of a box. The energy is the amount by which that of the fluid would rise: the
 /// full sum over all particles and their images within the cutoff, half of the probe's own images, and with Truncation::tail the
 /// growth of the long-range correction. All images count, whatever the box. Throws as pair_sum() does.
 Probe probe(const Probed& probed, const Particles& fluid, const PairMixture& mixture);
 
 /// Whether all particles and their images are at least the clearance of their species from `position` [sigma].
 bool is_clear(const Vector& position, std::span<const double> clearances, std::span<const double> positions,
-              std::span<const int> species, const Vector& box);
+              std::span<const int> species, const Vector& box, const Periodic& periodic = all_periodic);
 
 /// One step of USHER (Eqs. 5 and 6) from where a probe has `energy` and `gradient` towards energy `target`.
 struct UsherRule {

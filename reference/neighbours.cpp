@@ -16,7 +16,8 @@ Shifts shifts_within(double d, double length, double cutoff) {
 
 }  // namespace
 
-std::vector<NeighbourPair> neighbour_pairs(std::span<const double> positions, const Vector& box, double cutoff) {
+std::vector<NeighbourPair> neighbour_pairs(std::span<const double> positions, const Vector& box, double cutoff,
+                                           const Periodic& periodic) {
   std::vector<NeighbourPair> pairs;
   const std::size_t n = positions.size() / 3;
   for (std::size_t i = 0; i < n; ++i)
@@ -25,7 +26,7 @@ std::vector<NeighbourPair> neighbour_pairs(std::span<const double> positions, co
       std::array<Shifts, 3> shifts;
       for (std::size_t k = 0; k < 3; ++k) {
         apart[k] = positions[3 * j + k] - positions[3 * i + k];
-        shifts[k] = shifts_within(apart[k], box[k], cutoff);
+        shifts[k] = periodic[k] ? shifts_within(apart[k], box[k], cutoff) : Shifts{0, 0};
       }
       for (int x = shifts[0].first; x <= shifts[0].last; ++x)
         for (int y = shifts[1].first; y <= shifts[1].last; ++y)

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "reference/images.hpp"
 #include "reference/vector.hpp"
 
 /// Pairs of particles within a cutoff, with ASE's conventions.
@@ -17,7 +18,9 @@ struct NeighbourPair {
   double distance;           // |D| < cutoff
 };
 
-/// All pairs in a periodic box, from both ends, a particle's own images among them; sorted by first, second and shift. O(N^2).
-std::vector<NeighbourPair> neighbour_pairs(std::span<const double> positions, const Vector& box, double cutoff);
+/// All pairs in a box, from both ends, a particle's own images along periodic axes among them; sorted by first, second and shift.
+/// O(N^2).
+std::vector<NeighbourPair> neighbour_pairs(std::span<const double> positions, const Vector& box, double cutoff,
+                                           const Periodic& periodic = all_periodic);
 
 }  // namespace lanescape::reference

@@ -111,7 +111,8 @@ Evaluation pair_sum(const Particles& particles, const PairMixture& mixture, Imag
       if (!particles.diameters.empty()) potential = between(potential, particles.diameters[i], particles.diameters[j]);
       const double r_c = cutoff(potential);
       const Vector p = particles.position(i), q = particles.position(j);
-      for_each_image({p[0] - q[0], p[1] - q[1], p[2] - q[2]}, particles.box, r_c, images, [&](const Image& image) {
+      const Vector d{p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+      for_each_image(d, particles.box, particles.periodic, r_c, images, [&](const Image& image) {
         if (i == j && image.nearest) return;
         // A NaN goes on, so that it shows in the result.
         if (!(dot(image.separation, image.separation) >= r_c * r_c)) add_pair(sum, i, j, image.separation, potential);

@@ -22,12 +22,13 @@ struct PairMixture {
   }
 };
 
-/// Particles in an orthorhombic, fully periodic box.
+/// Particles in an orthorhombic box. The long-range correction takes its volume, whether axes are open or not.
 struct Particles {
   std::span<const double> positions;  // 3N, interleaved, wrapped or not [sigma]
   std::span<const int> species;       // N, each in [0, mixture.species)
   Vector box{};                       // edges [sigma]
   std::span<const double> diameters;  // N for the polydisperse form, else empty [sigma]
+  Periodic periodic = all_periodic;
 
   Vector position(std::size_t i) const { return {positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]}; }
 };

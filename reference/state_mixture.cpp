@@ -159,7 +159,7 @@ StateNeighbours all_neighbours(std::span<const double> positions, const Vector& 
     for (std::size_t j = 0; j < n; ++j) {
       Vector separation;
       for (std::size_t k = 0; k < 3; ++k) separation[k] = positions[3 * i + k] - positions[3 * j + k];
-      for_each_image(separation, box, reach, ImageRule::all, [&](const Image& image) {
+      for_each_image(separation, box, all_periodic, reach, ImageRule::all, [&](const Image& image) {
         if (i == j && image.nearest) return;
         if (dot(image.separation, image.separation) < reach * reach) neighbours[i].push_back({j, image.shift});
       });

@@ -15,6 +15,13 @@ void check_edges(std::span<const double> edges) {
       throw_bad_input(fmt::format("box edge {} is not allowed: it must be from {} to {}", edge, least_edge, greatest_edge));
 }
 
+void check_periodic(const Box& box, std::string_view work) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (!box.periodic[axis])
+      throw_bad_input(
+          fmt::format("{} are not allowed in a box that is open along {}: it must be periodic along all axes", work, "xyz"[axis]));
+}
+
 void check_finite(std::span<const double> coordinates) {
   for (const double x : coordinates)
     if (!std::isfinite(x)) throw_bad_input(fmt::format("coordinate {} of a particle is not allowed: it must be finite", x));

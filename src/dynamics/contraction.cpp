@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "configuration/hard_sphere_model.hpp"
+#include "core/coordinate_checks.hpp"
 #include "core/error.hpp"
 #include "core/option_checks.hpp"
 #include "neighbour/cell_grid.hpp"
@@ -23,6 +24,7 @@ constexpr double skin_per_diameter = 0.5;
 
 SqueezedSpheres::SqueezedSpheres(const Configuration& start)
     : spheres_(start), positions_(start.size()), list_begin_(start.size() + 1, 0) {
+  check_periodic(start.box, "hard spheres");
   spheres_.wrap();
   for (std::size_t i = 0; i < start.size(); ++i)
     positions_[i] = {spheres_.positions[3 * i], spheres_.positions[3 * i + 1], spheres_.positions[3 * i + 2]};

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/coordinate_checks.hpp"
 #include "core/error.hpp"
 #include "core/float_environment.hpp"
 #include "dynamics/maxwell.hpp"
@@ -45,6 +46,7 @@ EventDriven::EventDriven(const Configuration& start, const std::vector<double>& 
       calendar_(start.size(), table),
       events_(start.size()),
       collisions_of_(start.size(), 0) {
+  check_periodic(box_, "event-driven dynamics");
   std::iota(slot_of_.begin(), slot_of_.end(), 0U);
   for (std::size_t i = 0; i < size(); ++i)
     spheres_[i] = {start.positions[3 * i], start.positions[3 * i + 1], start.positions[3 * i + 2], 0.0, 0.0, 0.0, 0.0,

@@ -11,7 +11,7 @@ class ReducedPositions {
   explicit ReducedPositions(double unit) : unit_(unit) {}
 
   double unit() const { return unit_; }
-  Box box(const Box& box) const { return {{box.length[0] / unit_, box.length[1] / unit_, box.length[2] / unit_}}; }
+  Box box(const Box& box) const { return box.in_unit(unit_); }
   // The positions in this unit, valid until the next call. They are not copied where the unit is 1.
   const AlignedArray& of(const AlignedArray& positions) {
     if (unit_ == 1.0) return positions;

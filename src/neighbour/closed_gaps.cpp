@@ -46,10 +46,23 @@ void close_once(std::vector<double>& x, double least, ClosedGaps& closed) {
   closed.length = across_faces ? (last - removed) + least : closed.length - removed;
 }
 
+// From coordinates that were shifted into [0, length].
+void close_all(std::vector<double>& x, double least, ClosedGaps& closed) {
+  double before = closed.length;
+  do {
+    before = closed.length;
+    close_once(x, least, closed);
+  } while (closed.length < 0.5 * before);
+}
+
+ClosedGaps not_closed(double length, std::size_t count) {
+  return {length, std::vector<double>(count, 0.0), std::vector<double>(count, 0.0)};
+}
+
 }  // namespace
 
 ClosedGaps close_gaps(std::vector<double> x, double length, double least) {
-  ClosedGaps closed{length, std::vector<double>(x.size(), 0.0), std::vector<double>(x.size(), 0.0)};
+  ClosedGaps closed = not_closed(length, x.size());
   if (x.empty()) return closed;
   // Coordinates that span less than the box are not wrapped: at the far face of a huge one a small number would lose its digits.
   const auto [lowest, highest] = std::minmax_element(x.begin(), x.end());
@@ -60,11 +73,19 @@ ClosedGaps close_gaps(std::vector<double> x, double length, double least) {
     closed.shifts[i] = wrap ? closed.boxes[i] * length : -origin;
     x[i] = std::clamp(x[i] + closed.shifts[i], 0.0, length);
   }
-  double before = length;
-  do {
-    before = closed.length;
-    close_once(x, least, closed);
-  } while (closed.length < 0.5 * before);
+  close_all(x, least, closed);
+  return closed;
+}
+
+// As in a box whose faces are `least` apart from the nearest particles.
+ClosedGaps close_open_gaps(std::vector<double> x, double least) {
+  ClosedGaps closed = not_closed(least, x.size());
+  if (x.empty()) return closed;
+  const auto [lowest, highest] = std::minmax_element(x.begin(), x.end());
+  const double origin = *lowest;
+  closed.length += *highest - origin;
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += closed.shifts[i] = -origin;
+  close_all(x, least, closed);
   return closed;
 }
 

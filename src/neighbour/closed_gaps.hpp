@@ -21,6 +21,9 @@ struct ClosedGaps {
 // clusters at very different scales.
 ClosedGaps close_gaps(std::vector<double> coordinates, double length, double least);
 
+// The same along an open axis, from the lowest coordinate; nothing lies across the faces, and no boxes are among the shifts.
+ClosedGaps close_open_gaps(std::vector<double> coordinates, double least);
+
 // Whether gaps may be worth closing: fewer than about one particle in a cube with this edge.
 inline bool is_sparse(const Box& box, std::size_t particles, double edge) {
   return edge > 0.0 && static_cast<double>(particles) * edge * edge * edge < box.volume();

@@ -40,9 +40,11 @@ void ListFrame::keep_made_at() {
 bool ListFrame::any_boxes(const AlignedArray& positions) const {
   const AlignedArray& reference = half_skin_.reference();
   const std::size_t slots = reference.size() / 3;
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!box_.periodic[axis]) continue;
     for (std::size_t k = axis * slots; k < (axis + 1) * slots; ++k)
       if (std::fabs(positions[k] - reference[k]) > 0.5 * box_.length[axis]) return true;
+  }
   return false;
 }
 
@@ -51,7 +53,8 @@ void ListFrame::count_boxes(const AlignedArray& positions) {
   if (boxes_.empty()) boxes_.resize(made_at_.size(), 0.0);
   AlignedArray& reference = half_skin_.reference();
   const std::size_t slots = reference.size() / 3;
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!box_.periodic[axis]) continue;
     for (std::size_t k = axis * slots; k < (axis + 1) * slots; ++k) {
       const double moved = positions[k] - reference[k];
       if (!(std::fabs(moved) > 0.5 * box_.length[axis])) continue;
@@ -60,10 +63,13 @@ void ListFrame::count_boxes(const AlignedArray& positions) {
       boxes_[k] = boxes;
       reference[k] = carried(k);
     }
+  }
 }
 
 bool ListFrame::stretch_to(const Box& box) {
+  const bool same_axes = box.periodic == box_.periodic;
   box_ = box;
+  if (!same_axes) forget();
   if (is_empty()) return false;
   double least = 1.0, greatest = 1.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -12,11 +12,14 @@ namespace lanescape {
 
 // Where a neighbour list was made, seen from the present box and positions; decides how long the list lasts.
 //
-// A particle that reappears shifted by whole edges has not moved: its boxes are counted and taken out of its displacement. A box
-// that changes carries the places where the list was made along, r -> r L'/L. With l and m the least and the greatest of the three
-// L'/L, a pair that was not listed was at least cutoff + skin apart. It is now at least l (cutoff + skin) less the displacements
-// of both from their carried places, so what is left of the skin is l (cutoff + skin) - cutoff, for the longest cutoff. Half of
-// that is each particle's. Growth counts in the same way, so that listed pairs stay as near as in a box that never changed.
+// A particle that reappears shifted by whole edges has not moved: its boxes are counted and taken out of its displacement. Along an
+// open axis it has moved, and no list outlasts an axis that opens or closes.
+//
+// A box that changes carries the places where the list was made along, r -> r L'/L. With l and m the least and the greatest of the
+// three L'/L, a pair that was not listed was at least cutoff + skin apart. It is now at least l (cutoff + skin) less the
+// displacements of both from their carried places, so what is left of the skin is l (cutoff + skin) - cutoff, for the longest
+// cutoff. Half of that is each particle's. Growth counts in the same way, so that listed pairs stay as near as in a box that never
+// changed.
 class ListFrame {
  public:
   ListFrame(const Box& box, double skin, double longest_cutoff, const kernels::KernelTable& table)

@@ -56,6 +56,7 @@ PeriodicPoints::PeriodicPoints(const Box& box, const ParticleLayout& layout, std
 
 void PeriodicPoints::set_box(const Box& box) {
   whole_box_ = box_ = box;
+  lowest_ = {};
   shape_grids();
   sparse_ = lanescape::is_sparse(box, particles_, largest_margin());
 }
@@ -86,9 +87,9 @@ void PeriodicPoints::shape_grid(Grid& grid, std::size_t particles) const {
       std::max(wide, least), std::max(wide, least),
       std::max(grid.margin / 4.0, least * least * least / (std::max(wide, least) * std::max(wide, least)))};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double length = box_.length[axis] + 2.0 * grid.margin;
+    const double margin = box_.periodic[axis] ? grid.margin : 0.0, length = box_.length[axis] + 2.0 * margin;
     grid.shape.cells[axis] = std::max<std::size_t>(1, static_cast<std::size_t>(length / edges[axis]));
-    grid.shape.low[axis] = -grid.margin;
+    grid.shape.low[axis] = lowest_[axis] - margin;
     grid.shape.edge[axis] = length / static_cast<double>(grid.shape.cells[axis]);
     grid.shape.cells_per_length[axis] = 1.0 / grid.shape.edge[axis];
   }
@@ -101,18 +102,42 @@ std::size_t PeriodicPoints::Grid::cell_of(const std::array<double, 3>& position)
   return cell;
 }
 
+template <class Visit>
+void PeriodicPoints::for_each_slot(Visit visit) const {
+  for (const kernels::SpeciesBlock& block : blocks_)
+    for (std::size_t slot = block.begin; slot < block.begin + block.count; ++slot) visit(slot);
+}
+
+// A search relies on points lying in their cells, and in single precision on coordinates no larger than the grid.
+void PeriodicPoints::reach_out(const AlignedArray& positions) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (whole_box_.periodic[axis]) continue;
+    const double length = whole_box_.length[axis];
+    double low = 0.0, high = length;
+    for_each_slot([&](std::size_t slot) {
+      const double x = positions[axis * layout_slots_ + slot];
+      check_boxes_away(x, x / length, length);
+      low = std::min(low, x);
+      high = std::max(high, x);
+    });
+    lowest_[axis] = low;
+    box_.length[axis] = high - low;
+  }
+  sparse_ = lanescape::is_sparse(box_, particles_, largest_margin());
+  if (!sparse_) shape_grids();
+}
+
 void PeriodicPoints::close_wide_gaps(const AlignedArray& positions) {
   home_shifts_.resize(layout_slots_);
   home_boxes_.resize(layout_slots_);
-  const auto for_each_slot = [&](auto visit) {
-    for (const kernels::SpeciesBlock& block : blocks_)
-      for (std::size_t slot = block.begin; slot < block.begin + block.count; ++slot) visit(slot);
-  };
+  lowest_ = {};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::vector<double> coordinates;
     for_each_slot([&](std::size_t slot) { coordinates.push_back(positions[axis * layout_slots_ + slot]); });
     check_finite(coordinates);
-    const ClosedGaps closed = close_gaps(std::move(coordinates), whole_box_.length[axis], 2.0 * largest_margin());
+    const double least = 2.0 * largest_margin();
+    const ClosedGaps closed = whole_box_.periodic[axis] ? close_gaps(std::move(coordinates), whole_box_.length[axis], least)
+                                                        : close_open_gaps(std::move(coordinates), least);
     box_.length[axis] = closed.length;
     std::size_t k = 0;
     for_each_slot([&](std::size_t slot) {
@@ -130,7 +155,7 @@ std::array<double, 3> PeriodicPoints::home_of(const AlignedArray& positions, std
   if constexpr (sparse) return home;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double x = positions[axis * layout_slots_ + slot], length = box_.length[axis];
-    if (x >= 0.0 && x < length) continue;
+    if ((x >= 0.0 && x < length) || !box_.periodic[axis]) continue;
     home[axis] = -std::floor(x / length);
     check_boxes_away(x, home[axis], length);
   }
@@ -164,7 +189,7 @@ void PeriodicPoints::list_images_of(const AlignedArray& positions, std::size_t s
     const double length = box_.length[axis];
     x[axis] = positions[axis * layout_slots_ + slot];
     const double wrapped = x[axis] + (sparse ? home_shifts_[slot][axis] : home[axis] * length);
-    if (wrapped >= grid.margin && wrapped <= length - grid.margin) continue;
+    if ((wrapped >= grid.margin && wrapped <= length - grid.margin) || !box_.periodic[axis]) continue;
     const double down = std::floor((wrapped + grid.margin) / length), up = std::floor((length + grid.margin - wrapped) / length);
     least[axis] = down > 0.0 ? static_cast<std::int16_t>(-down) : std::int16_t{0};
     most[axis] = up > 0.0 ? static_cast<std::int16_t>(up) : std::int16_t{0};
@@ -201,6 +226,7 @@ void PeriodicPoints::list_images(const AlignedArray& positions, std::size_t part
 // A counting sort: each part of the particles counts its images per cell and stores them after those of earlier parts, so that the
 // order does not depend on how many parts there are.
 void PeriodicPoints::sort(const AlignedArray& positions) {
+  if (whole_box_.has_open_axis()) reach_out(positions);
   if (sparse_) close_wide_gaps(positions);
   sparse_ ? sort_points<true>(positions) : sort_points<false>(positions);
 }

@@ -19,6 +19,7 @@ namespace lanescape {
 // within a species by the cells of a grid over box and margin, so that points near in space are near in memory. With images as
 // points of their own, separations are plain differences and the box may be of any size, down to a fraction of the margin.
 // In a sparse box wide gaps between particles are narrowed first (ClosedGaps): separations within the margin stay as they are.
+// Along an open axis there are no images and nothing is wrapped; the grid reaches as far as the particles do.
 //
 // Cells run fastest along z: the points of neighbouring cells of one column are one run. The order depends on the positions
 // alone, not on the number of threads.
@@ -29,7 +30,7 @@ class PeriodicPoints {
   PeriodicPoints(const Box& box, const ParticleLayout& layout, std::vector<double> margins, int threads, double fixed_unit = 0.0);
 
   // Sorts the points of these positions (layout's order, wrapped or not). O(N). Throws Error(bad_input) for a coordinate that is
-  // not finite.
+  // not finite or more than 10^12 boxes away.
   void sort(const AlignedArray& positions);
   // The next sort is in this box.
   void set_box(const Box& box);
@@ -102,6 +103,10 @@ class PeriodicPoints {
   double largest_margin() const;
   void shape_grids();
   void shape_grid(Grid& grid, std::size_t particles) const;
+  template <class Visit>
+  void for_each_slot(Visit visit) const;  // that has a particle
+  // Along open axes: sets the box and its grids to where particles are, and whether that is sparse.
+  void reach_out(const AlignedArray& positions);
   // Narrows the wide gaps of a sparse box: sets the box, its grids and the home shifts.
   void close_wide_gaps(const AlignedArray& positions);
   // Whole boxes that bring a particle into the box, where no home shifts do.
@@ -130,6 +135,7 @@ class PeriodicPoints {
   std::size_t first_range(std::size_t part) const { return ranges_.size() * part / parts_.size(); }
 
   Box whole_box_, box_;
+  Point lowest_{};  // of the grids without their margins: 0 along periodic axes
   std::vector<kernels::SpeciesBlock> blocks_;
   std::size_t layout_slots_;
   int threads_;

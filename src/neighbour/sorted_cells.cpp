@@ -1,5 +1,7 @@
 #include "neighbour/sorted_cells.hpp"
 
+#include <utility>
+
 #include "core/coordinate_checks.hpp"
 #include "neighbour/closed_gaps.hpp"
 
@@ -43,7 +45,8 @@ SortedCells::SortedCells(const Configuration& configuration, double reach)
 // A counting sort.
 SortedCells::SortedCells(const Box& box, double reach, std::vector<Point> points)
     : box_(box), margin_(margin_in(box)), reach_(reach + margin_), points_(points.size()) {
-  if (is_sparse(box, points.size(), reach)) close_wide_gaps(points, reach);
+  if (box.has_open_axis()) enclose(points, reach);
+  if (is_sparse(box_, points.size(), reach)) close_wide_gaps(points, reach);
   cells_ = shape(box_, reach_, points.size());
   for (std::size_t axis = 0; axis < 3; ++axis) cells_per_length_[axis] = static_cast<double>(cells_[axis]) / box_.length[axis];
   std::vector<std::uint32_t> cell(points.size());
@@ -58,6 +61,26 @@ SortedCells::SortedCells(const Box& box, double reach, std::vector<Point> points
   // Ends become beginnings, as points are stored from the last to the first.
   for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
   for (std::size_t i = points.size(); i-- > 0;) points_[--first_[cell[i]]] = points[i];
+}
+
+void SortedCells::enclose(std::vector<Point>& points, double reach) {
+  const std::array<bool, 3> periodic = std::exchange(box_.periodic, {true, true, true});
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (periodic[axis]) continue;
+    double low = 0.0, high = box_.length[axis];
+    for (const Point& point : points) {
+      check_finite({&point.position[axis], 1});
+      low = std::min(low, point.position[axis]);
+      high = std::max(high, point.position[axis]);
+    }
+    for (Point& point : points) point.position[axis] -= low;
+    box_.length[axis] = high - low;
+  }
+  const double gap = 2.0 * (reach + margin_in(box_));
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (!periodic[axis]) box_.length[axis] += gap;
+  margin_ = margin_in(box_);
+  reach_ = reach + margin_;
 }
 
 void SortedCells::close_wide_gaps(std::vector<Point>& points, double reach) {

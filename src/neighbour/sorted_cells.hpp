@@ -14,7 +14,8 @@ namespace lanescape {
 
 // Finds near pairs of points that do not move (CellGrid is for those that do). Points are sorted by the cells of a periodic
 // grid, so that points near in space are near in memory. An axis with room for fewer than three cells has one. Wide gaps of a
-// sparse box are narrowed first (ClosedGaps). Construction is O(N).
+// sparse box are narrowed first (ClosedGaps). An open axis becomes a periodic one with an empty stretch that is wider than the
+// reach. Construction is O(N).
 class SortedCells {
  public:
   struct Point {
@@ -54,6 +55,8 @@ class SortedCells {
   std::size_t last(std::size_t axis, std::size_t cell) const { return (cell > 0 ? cell : cells_[axis]) - 1; }
   double distance_squared(const std::array<double, 3>& a, const std::array<double, 3>& b) const;
 
+  // Makes open axes periodic: moves points so that none is below 0, and lengthens edges.
+  void enclose(std::vector<Point>& points, double reach);
   // Narrows the wide gaps of a sparse box: moves its points and shortens its edges.
   void close_wide_gaps(std::vector<Point>& points, double reach);
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/coordinate_checks.hpp"
 #include "neighbour/sorted_cells.hpp"
 
 namespace lanescape {
@@ -22,7 +23,9 @@ RadialDistribution::RadialDistribution(const Box& box, const ParticleLayout& lay
       bins_(bins),
       range_(range),
       width_(range / static_cast<double>(bins)),
-      counts_(blocks_.size() * blocks_.size() * bins, 0) {}
+      counts_(blocks_.size() * blocks_.size() * bins, 0) {
+  check_periodic(box, "radial distributions");
+}
 
 void RadialDistribution::add(const AlignedArray& position) {
   ++samples_;

@@ -49,7 +49,8 @@ std::vector<Point> densest_lattice(std::size_t n) {
 }
 
 // Turns sites in box units into positions displaced by up to 0.05 per axis, so that no separation is special. Every third particle
-// is moved by up to four boxes per axis, as happens to particles in a long run. Every fifth particle is of the last species.
+// is moved by up to four boxes per periodic axis, as happens to particles in a long run; along an open axis sites near a face may
+// come to lie outside. Every fifth particle is of the last species.
 Configuration rattled(const std::vector<Point>& sites, const Box& box, std::size_t species_count) {
   const CounterRandom jitter(seed, RandomStream::displacements), boxes(seed, RandomStream::sites);
   Configuration configuration{box, {}, {}};
@@ -57,7 +58,8 @@ Configuration rattled(const std::vector<Point>& sites, const Box& box, std::size
     const auto particle = static_cast<std::uint32_t>(i);
     configuration.species.push_back(i % 5 == 4 ? static_cast<int>(species_count) - 1 : 0);
     for (std::uint32_t axis = 0; axis < 3; ++axis) {
-      const double shift = i % 3 == 2 ? static_cast<double>(boxes.below(9, sites.size(), particle, axis)) - 4.0 : 0.0;
+      const double shift =
+          i % 3 == 2 && box.periodic[axis] ? static_cast<double>(boxes.below(9, sites.size(), particle, axis)) - 4.0 : 0.0;
       const double displacement = 0.1 * (jitter.uniform(sites.size(), particle, axis) - 0.5);
       configuration.positions.push_back((sites[i][axis] + shift) * box.length[axis] + displacement);
     }
@@ -283,6 +285,28 @@ std::vector<PairCase> cluster_cases(const PairForm& form) {
                truncated, configuration});
       }
     }
+  return cases;
+}
+
+std::vector<PairCase> open_cases(const PairForm& form) {
+  constexpr std::array<bool, 3> axes[] = {{false, true, true},  {true, false, true},  {true, true, false},
+                                          {false, false, true}, {true, false, false}, {false, false, false}};
+  constexpr Truncation truncations_here[] = {Truncation::shifted, Truncation::plain, Truncation::shifted_force, Truncation::smooth};
+  std::vector<PairModel> models{two_species(form, numbers_of(form).front())};
+  if (&form == &lennard_jones_form()) models.insert(models.end(), {lennard_jones(), ternary()});
+  std::vector<PairCase> cases;
+  for (const PairModel& model : models)
+    for (const auto& periodic : axes)
+      for (const Point& edges : {Point{6.0, 6.7, 7.2}, Point{2.2, 3.1, 4.7}, Point{1.2, 4.8, 1.3}}) {
+        Configuration configuration = filled({edges, periodic}, model.species.size());
+        if (form.has_diameters) give_diameters(configuration);
+        PairModel truncated = with(model, ImageRule::all, truncations_here[cases.size() % 4]);
+        if (!allows(truncated)) truncated.truncation = Truncation::shifted;
+        cases.push_back(
+            {fmt::format("{} open along {}{}{}, box {} {} {}, {}", cases.size(), periodic[0] ? "" : "x", periodic[1] ? "" : "y",
+                         periodic[2] ? "" : "z", edges[0], edges[1], edges[2], to_string(truncated.truncation)),
+             truncated, configuration});
+      }
   return cases;
 }
 

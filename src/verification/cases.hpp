@@ -21,9 +21,12 @@ std::vector<PairCase> pair_cases();
 
 // Fewer cases of the same kind for any pair potential: sizes, image rules, every truncation that it allows, two species.
 std::vector<PairCase> form_cases(const PairForm& form);
-// Both of these for all pair potentials: what kernels of hosts are checked on. Names are unique.
+// Slabs and clusters in vacuum: boxes with one to three open axes, edges down to a fraction of the cutoff, particles outside the
+// faces.
+std::vector<PairCase> open_cases(const PairForm& form);
 // Liquids in boxes that clusters need, from single particles to some hundred; none for a form with diameters.
 std::vector<PairCase> cluster_cases(const PairForm& form);
+// pair_cases() and form_cases() of all pair potentials: what kernels of hosts are checked on. Names are unique.
 std::vector<PairCase> all_pair_cases();
 // Prefix of the names of its kernels' results: its keyword, with underscores.
 std::string name_in_results(const PairForm& form);

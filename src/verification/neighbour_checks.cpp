@@ -39,7 +39,7 @@ double wrong_entries(const std::vector<NeighbourPair>& found, const std::vector<
 }
 
 std::vector<NeighbourPair> find(const PairCase& one, double cutoff, bool sorted, const kernels::KernelTable& table) {
-  PairFinder finder({.cutoffs = {cutoff}, .sorted = sorted}, table);
+  PairFinder finder({.cutoffs = {cutoff}, .periodic = one.configuration.box.periodic, .sorted = sorted}, table);
   finder.set_particles(one.configuration.positions, one.configuration.box.length, {});
   std::vector<NeighbourPair> pairs = in_one_list(finder.pairs());
   if (!sorted) std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return key(a) < key(b); });
@@ -89,16 +89,19 @@ double wrong_in_list(const PairCase& one, double cutoff, const std::vector<Neigh
 std::vector<Deviation> verify_neighbour_pairs(const kernels::KernelTable& table, const std::vector<PairCase>& cases) {
   Check any(table, "points_within_group: pairs", tolerance::exact), sorted(table, "sort_few: sorted pairs", tolerance::exact),
       lists(table, "list_group: lists", tolerance::exact);
-  for (const PairCase& one : cases) {
-    // Other truncations and image rules have the same configurations.
-    if (one.model.truncation != Truncation::shifted || one.model.images != ImageRule::all) continue;
+  const auto add = [&](const PairCase& one) {
+    const Box& box = one.configuration.box;
     const double cutoff = one.model.largest_cutoff();
-    if (cutoff > max_boxes_in_cutoff * one.configuration.box.shortest()) continue;
-    const auto expected = reference::neighbour_pairs(one.configuration.positions, one.configuration.box.length, cutoff);
+    if (cutoff > max_boxes_in_cutoff * box.shortest()) return;
+    const auto expected = reference::neighbour_pairs(one.configuration.positions, box.length, cutoff, box.periodic);
     any.add(one.name, wrong_entries(find(one, cutoff, false, table), expected));
     sorted.add(one.name, wrong_entries(find(one, cutoff, true, table), expected));
     lists.add(one.name, wrong_in_list(one, cutoff, expected, table));
-  }
+  };
+  // Other truncations and image rules have the same configurations.
+  for (const PairCase& one : cases)
+    if (one.model.truncation == Truncation::shifted && one.model.images == ImageRule::all) add(one);
+  for (const PairCase& one : open_cases(lennard_jones_form())) add(one);
   return {any.deviation, sorted.deviation, lists.deviation};
 }
 

@@ -18,8 +18,8 @@ bool has_clusters(const PairCase& one);
 bool has_pair_at_cutoff(const PairCase& one, double margin);
 
 // Compares the kernels of a pair potential in a table with the scalar reference; `form` starts the names of the results. Over all
-// pairs; over neighbour lists, if a case allows one; in mixed precision, over lists and clusters, except for cases with a pair at the
-// cutoff.
+// pairs; over neighbour lists, if a case allows one, also of open_cases(); in mixed precision, over lists and clusters, except for
+// cases with a pair at the cutoff.
 std::vector<Deviation> verify_all_pairs(const kernels::KernelTable& table, const std::vector<PairCase>& cases,
                                         const std::string& form = "lennard_jones");
 std::vector<Deviation> verify_lists(const kernels::KernelTable& table, const std::vector<PairCase>& cases,

@@ -43,8 +43,8 @@ double wrongly_clear(const PairModel& model, const Configuration& configuration,
   for (std::uint32_t k = 0; k < places; ++k) {
     std::array<double, 3> place = random.uniform_point(0, k);
     for (std::size_t axis = 0; axis < 3; ++axis) positions.push_back(place[axis] *= configuration.box.length[axis]);
-    expected.push_back(
-        reference::is_clear(place, clearances, configuration.positions, configuration.species, configuration.box.length));
+    expected.push_back(reference::is_clear(place, clearances, configuration.positions, configuration.species,
+                                           configuration.box.length, configuration.box.periodic));
   }
   for (std::size_t k = 0; k < places; ++k) {
     k += field.first_clear(clearances, std::span(positions).subspan(3 * k));

@@ -34,7 +34,8 @@ reference::PairMixture translate(const PairModel& model) {
 }
 
 reference::Particles translate(const Configuration& configuration) {
-  return {configuration.positions, configuration.species, configuration.box.length, configuration.diameters};
+  return {configuration.positions, configuration.species, configuration.box.length, configuration.diameters,
+          configuration.box.periodic};
 }
 
 }  // namespace

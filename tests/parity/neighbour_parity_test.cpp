@@ -59,7 +59,7 @@ std::size_t list_without_its_last_point(const kernels::GroupRow* rows, std::size
 std::size_t columns_but_for_the_last(const kernels::PointGrid& grid, const double* low, const double* high, double reach,
                                      kernels::NearColumns& columns) noexcept {
   const std::size_t found = right->columns_near_rectangle(grid, low, high, reach, columns);
-  if (found > 0 && found <= columns.capacity) --columns.count;
+  if (found > 1 && found <= columns.capacity) --columns.count;  // a search without its own column is not foreseen
   return found;
 }
 

@@ -55,6 +55,7 @@ bool depends_on_rounding(const testing::RandomConfiguration& made) {
     for (std::size_t i = 0; i < made.configuration.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
         for (std::size_t axis = 0; axis < 3; ++axis) {
+          if (!made.configuration.box.periodic[axis]) continue;
           const double length = made.configuration.box.length[axis];
           const double d = made.configuration.positions[3 * i + axis] - made.configuration.positions[3 * j + axis];
           if (std::abs(std::abs(std::remainder(d, length)) - 0.5 * length) < 1e-9 * length) return true;
@@ -95,13 +96,15 @@ Outcome check(std::uint64_t number, Isa isa, const testing::RandomConfiguration&
   const bool right =
       of_energy <= allowed.energy && of_virial <= allowed.virial && worst <= allowed.gradient && energy == sums.energy;
   EXPECT_TRUE(right) << fmt::format(
-      "configuration {} on {}: {} {} {} {} N={} box {} {} {} unit {} precision {} search {}: energy {} (expected {}), deviations "
+      "configuration {} on {}: {} {} {} {} N={} box {} {} {}, {} open axes, unit {} precision {} search {}: energy {} (expected "
+      "{}), deviations "
       "{} {} {}, allowed {} {} {}",
       number, to_string(isa), made.model.form->word, made.model.species.size(), to_string(made.model.images),
       to_string(made.model.truncation), made.configuration.size(), made.configuration.box.length[0] / made.unit,
-      made.configuration.box.length[1] / made.unit, made.configuration.box.length[2] / made.unit, made.unit,
-      to_string(made.options.precision), static_cast<int>(made.options.search), energy, expected.energy, of_energy, of_virial,
-      worst, allowed.energy, allowed.virial, allowed.gradient);
+      made.configuration.box.length[1] / made.unit, made.configuration.box.length[2] / made.unit,
+      std::ranges::count(made.configuration.box.periodic, false), made.unit, to_string(made.options.precision),
+      static_cast<int>(made.options.search), energy, expected.energy, of_energy, of_virial, worst, allowed.energy, allowed.virial,
+      allowed.gradient);
   return Outcome::right;
 }
 

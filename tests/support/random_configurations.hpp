@@ -38,10 +38,18 @@ class RandomConfigurations {
     made.options.precision = kind < 0.3 ? Precision::mixed : Precision::double_precision;
     if (kind >= 0.3 && kind < 0.6) made.options.search = PairSearch::list;
     if (kind >= 0.6 && kind < 0.8) made.options.search = PairSearch::all_pairs;
+    open_axes(made);
     return made;
   }
 
  private:
+  // Particles that are boxes away are then truly far. What open axes cannot have is refused; here and there that is wanted too.
+  void open_axes(RandomConfiguration& made) {
+    const bool can = made.options.search != PairSearch::all_pairs && made.model.truncation != Truncation::tail &&
+                     made.model.images == ImageRule::all;
+    if (!chance(can ? 0.4 : 0.02)) return;
+    for (bool& periodic : made.configuration.box.periodic) periodic = chance(0.5);
+  }
   double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(generator_); }
   std::size_t below(std::size_t n) { return std::min(n - 1, static_cast<std::size_t>(between(0.0, static_cast<double>(n)))); }
   bool chance(double p) { return between(0.0, 1.0) < p; }

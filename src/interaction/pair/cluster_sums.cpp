@@ -20,7 +20,7 @@ std::vector<double> cutoffs(const PairModel& model) {
 bool ClusterSums::can_hold(const PairModel& model, const Box& box, const ParticleLayout& layout, double skin) {
   // Coordinates are rounded to 2^-30 of eight to sixteen reaches: at this limit to half of what single precision loses anyway.
   constexpr double most_reach_per_size = 5.0;
-  if (model.form->has_diameters || layout.size() == 0) return false;
+  if (model.form->has_diameters || layout.size() == 0 || box.has_open_axis()) return false;
   const double reach = model.largest_cutoff() + ClusterList::outer_skin(skin);
   return reach <= most_reach_per_size * *std::min_element(model.sigma.begin(), model.sigma.end()) &&
          2.0 * reach <= box.shortest() && !is_sparse(box, layout.size(), reach);

@@ -36,6 +36,7 @@ void check_reach(const Box& box, double cutoff) {
 
 void check_cutoff(const PairModel& model, const Box& box, double scale) {
   check_reach(box, model.images == ImageRule::minimum ? 0.0 : scale * model.largest_cutoff());
+  if (model.truncation == Truncation::tail) check_periodic(box, "long-range corrections (truncation tail)");
 }
 
 }  // namespace lanescape

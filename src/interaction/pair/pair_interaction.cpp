@@ -62,14 +62,14 @@ bool PairInteraction::wants_clusters(const Box& box) const {
     return can && options_.search == PairSearch::automatic && layout_.size() >= ClusterSums::crossover(layout_.blocks().size());
   if (!can)
     throw_bad_input(
-        "clusters of particles are not allowed with these: no exclusions and no diameters, a box of twice the cutoff and "
+        "clusters of particles are not allowed with these: no exclusions and no diameters, a periodic box of twice the cutoff and "
         "the skin or more, and at most five diameters of cutoff and skin are");
   return true;
 }
 
 void PairInteraction::set_box(const Box& box) {
   const FloatEnvironment environment;
-  check_reach(box, model_.images == ImageRule::minimum ? 0.0 : scale() * model_.largest_cutoff() * reduced_.unit());
+  check_cutoff(model_, box, scale() * reduced_.unit());
   const Box reduced = reduced_.box(box);
   if (wants_list(reduced) == has_list() && wants_clusters(reduced) == (clusters() != nullptr))
     sums_->set_box(model_, reduced);
@@ -109,7 +109,7 @@ void PairInteraction::add_images_of_one(const PairNumbers& numbers, double count
   const double cutoff = model_.cutoff * numbers.sigma;
   // Half of each: the pair of a particle and its image belongs to one particle only.
   const double weight = 0.5 * count;
-  const auto reach = [&](std::size_t axis) { return static_cast<int>(cutoff / box.length[axis]); };
+  const auto reach = [&](std::size_t axis) { return box.periodic[axis] ? static_cast<int>(cutoff / box.length[axis]) : 0; };
   for (int a = -reach(0); a <= reach(0); ++a)
     for (int b = -reach(1); b <= reach(1); ++b)
       for (int c = -reach(2); c <= reach(2); ++c) {
@@ -185,8 +185,8 @@ PairInteraction::Evaluation PairInteraction::energy_and_stress(const AlignedArra
 }
 
 std::unique_ptr<SegmentBound> PairInteraction::segment_bound(double longest) const {
-  // Only double precision gives what the bound's rounding allows for, and excluded pairs are subtracted.
-  if (options_.precision == Precision::mixed || exclusions_) return nullptr;
+  // Only double precision gives what the bound's rounding allows for, excluded pairs are subtracted, and the bound has all images.
+  if (options_.precision == Precision::mixed || exclusions_ || box_.has_open_axis()) return nullptr;
   const FloatEnvironment environment;
   return PairSegmentBound::make(model_.in_unit(1.0 / reduced_.unit()), box_, layout_, longest);
 }

@@ -33,8 +33,8 @@ class PairSums;
 // evaluation and the neighbour list, so that each caller's thread needs its own. Coordinates are in the layout's order.
 class PairInteraction {
  public:
-  // Throws what check_cutoff() throws, and Error(bad_input) where a list is asked for, or needed for mixed precision, that the
-  // minimum-image rule or PairSearch::all_pairs does not allow.
+  // Throws what check_cutoff() throws, and Error(bad_input) where a list is asked for, or needed for mixed precision or an open
+  // axis, that the minimum-image rule or PairSearch::all_pairs does not allow.
   PairInteraction(const PairModel& model, const Box& box, const ParticleLayout& layout, const kernels::KernelTable& table,
                   const PairSearchOptions& options = {});
   PairInteraction(PairInteraction&&) noexcept;

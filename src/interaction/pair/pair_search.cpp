@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/coordinate_checks.hpp"
 #include "core/enum_words.hpp"
 #include "core/error.hpp"
 #include "interaction/pair/pair_parameters.hpp"
@@ -30,7 +31,10 @@ void check_list(const PairModel& model, const Box& box, double scale, Precision 
   throw_bad_input(
       fmt::format("the minimum-image rule has no neighbour list{} in a box of shortest edge {}: at least twice the "
                   "cutoff and the skin is needed",
-                  precision == Precision::mixed ? ", which mixed precision needs," : "", box.shortest()));
+                  precision == Precision::mixed ? ", which mixed precision needs,"
+                  : box.has_open_axis()         ? ", which open axes need,"
+                                                : "",
+                  box.shortest()));
 }
 
 }  // namespace
@@ -46,6 +50,7 @@ bool takes_list(const PairModel& model, const Box& box, double scale, std::size_
     throw_bad_input("mixed precision needs a neighbour list: over all pairs there is double precision only");
   if (options.precision != Precision::mixed && options.search == PairSearch::clusters)
     throw_bad_input("clusters of particles need mixed precision");
+  if (options.search == PairSearch::all_pairs) check_periodic(box, "sums over all pairs");
   switch (options.search) {
     case PairSearch::all_pairs:
       return false;
@@ -56,7 +61,7 @@ bool takes_list(const PairModel& model, const Box& box, double scale, std::size_
     case PairSearch::automatic:
       break;
   }
-  if (options.precision == Precision::mixed) {
+  if (options.precision == Precision::mixed || box.has_open_axis()) {
     check_list(model, box, scale, options.precision, options.skin);
     return true;
   }

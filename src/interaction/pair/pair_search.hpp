@@ -8,7 +8,7 @@
 namespace lanescape {
 
 // How pairs are found: over all of them, over a neighbour list, or over clusters of particles, in mixed precision; or whichever is
-// faster, by the number of particles.
+// faster, by the number of particles. In a box with an open axis there are lists alone.
 enum class PairSearch { automatic, all_pairs, list, clusters };
 
 // Of the arithmetic of pairs. Mixed: single precision, over a list, with sums in double and the error that
@@ -38,7 +38,8 @@ struct PairSearchOptions {
 };
 
 // Whether an interaction of so many particles takes a list. Throws Error(bad_input) where a list is asked for, or needed for mixed
-// precision, that the minimum-image rule or PairSearch::all_pairs does not allow, and where clusters are asked for in double precision.
+// precision or an open axis, that the minimum-image rule or PairSearch::all_pairs does not allow, and where clusters are asked for
+// in double precision.
 bool takes_list(const PairModel& model, const Box& box, double scale, std::size_t particles, const PairSearchOptions& options);
 
 }  // namespace lanescape

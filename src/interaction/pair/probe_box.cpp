@@ -26,6 +26,7 @@ Point ProbeBox::home(const Point& position) const {
 }
 
 void ProbeBox::check(const PairModel& model, double cutoff, const char* work) const {
+  check_periodic(box_, "single particles");
   for (const double edge : box_.length)
     if (edge > largest_edge * unit_)
       throw_bad_input(

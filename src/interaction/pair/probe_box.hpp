@@ -12,7 +12,7 @@ class ProbeBox {
 
   const Box& box() const { return box_; }  // [sigma]
   double unit() const { return unit_; }    // [sigma]
-  Box reduced() const { return {{box_.length[0] / unit_, box_.length[1] / unit_, box_.length[2] / unit_}}; }
+  Box reduced() const { return box_.in_unit(unit_); }
   // The place in the box, in this unit. Throws Error(bad_input) for a coordinate that is not finite.
   Point home(const Point& position) const;
   // Throws Error(bad_input) for edges above 10^7 units, and for the minimum-image rule in a box whose shortest edge is below twice

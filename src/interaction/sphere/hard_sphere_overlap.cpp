@@ -54,7 +54,9 @@ HardSphereOverlap::HardSphereOverlap(const Box& box, const ParticleLayout& layou
       largest_radius_(radii.empty() ? 0.0 : *std::max_element(radii.begin(), radii.end())),
       fractions_(3 * padded(layout.slots(), float_padding)),
       reaches_(padded(layout.slots(), float_padding)),
-      pairs_(16 * layout.size() + 16) {}
+      pairs_(16 * layout.size() + 16) {
+  check_periodic(box, "hard spheres");
+}
 
 kernels::SphereInput HardSphereOverlap::input(const AlignedArray& positions) {
   return {positions.data(),  radii_.data(),   radii_.size(),  {box_.length[0], box_.length[1], box_.length[2]},

@@ -131,10 +131,12 @@ StateMixture::StateMixture(StateMixtureParts parts, const Box& box, const Partic
       slopes_(layout.slots() * parts_.response->states(), 0.0),
       probability_slopes_(layout.slots() * parts_.response->states(), 0.0),
       unused_(layout.dimension(), 0.0) {
+  check_periodic(box, "sites in states");
   if (parts_.one_body.mu.empty()) parts_.one_body.mu.assign(layout.blocks().size() * parts_.response->states(), 0.0);
 }
 
 void StateMixture::set_box(const Box& box) {
+  check_periodic(box, "sites in states");
   check_reach(box, sites_.furthest() * reduced_.unit());
   sites_.set_box(reduced_.box(box));
 }

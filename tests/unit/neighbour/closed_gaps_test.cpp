@@ -85,6 +85,18 @@ TEST(ClosedGaps, KeepsNearPairsOfClustersApart) {
   }
 }
 
+TEST(ClosedGaps, KeepsStretchesOfAnOpenAxisWhereverTheyAre) {
+  for (const double origin : {-1e9, -3.0, 0.0, 5e8}) {
+    const std::vector<double> x = {origin + 4.0, origin, origin + 1.5, origin + 1e3, origin + 1e3 + 0.5};
+    const ClosedGaps closed = close_open_gaps(x, 2.5);
+    EXPECT_EQ(narrowed(x, closed), (std::vector<double>{4.0, 0.0, 1.5, 6.5, 7.0})) << origin;
+    EXPECT_EQ(closed.boxes, std::vector<double>(5, 0.0));
+    EXPECT_EQ(closed.length, 9.5);
+  }
+  EXPECT_EQ(close_open_gaps({}, 2.5).shifts.size(), 0U);
+  EXPECT_EQ(close_open_gaps({7.0}, 2.5).shifts, (std::vector<double>{-7.0}));
+}
+
 TEST(ClosedGaps, NarrowsToWhatTheClustersNeed) {
   std::vector<double> x;
   for (const double centre : {3e3, 4e6, 4.0001e6, 9e8})

@@ -42,7 +42,7 @@ Pairs pairs_of(const SortedCells& cells) {
 double distance(const Box& box, const Point& a, const Point& b) {
   double squared = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double d = std::remainder(b[axis] - a[axis], box.length[axis]);
+    const double d = box.periodic[axis] ? std::remainder(b[axis] - a[axis], box.length[axis]) : b[axis] - a[axis];
     squared += d * d;
   }
   return std::sqrt(squared);
@@ -72,6 +72,16 @@ TEST(SortedCells, ReachesOverTheWholeBoxWhereItIsSmall) {
 }
 
 TEST(SortedCells, TakesUnwrappedPositions) { expect_those_within_reach(random_points(400, {{8.0, 6.0, 7.0}}, 3, 5.0), 1.0); }
+
+TEST(SortedCells, TakesOpenAxesAndPointsOutsideTheirFaces) {
+  for (const Box& box : {Box{{8.0, 6.0, 7.0}, {false, true, true}}, Box{{8.0, 6.0, 7.0}, {true, false, false}},
+                         Box{{2.0, 6.0, 30.0}, {false, false, false}}, Box{{9.0, 1e9, 9.0}, {false, true, false}}})
+    for (const double boxes : {0.0, 1.0, 40.0}) {
+      Configuration points = random_points(400, box, 8, boxes);
+      for (std::size_t k = 0; k < 30; ++k) points.positions[k] = k % 2 == 0 ? 0.01 * static_cast<double>(k) : box.length[k % 3];
+      for (const double reach : {0.5, 1.0}) expect_those_within_reach(points, reach);
+    }
+}
 
 TEST(SortedCells, MissesNothingAMillionBoxesAway) {
   const Configuration points = random_points(400, {{8.0, 6.0, 7.0}}, 4, 1e6);
