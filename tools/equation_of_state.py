@@ -9,8 +9,9 @@ Exit status 0, or 2 with one line on stderr for input that cannot be used.
   kolafa-nezbeda   Kolafa, Nezbeda, Fluid Phase Equilib. 100, 1 (1994), doi:10.1016/0378-3812(94)80001-4
   thol             Thol, Rutkai, Koester, Lustig, Span, Vrabec, J. Phys. Chem. Ref. Data 45, 023101 (2016), doi:10.1063/1.4945000
 
-All are of the fluid without a cutoff unless one is given: compare simulations with long-range corrections. They were fitted to T from about 0.7 to 6, 10
-and 9 and up to freezing; beyond, and inside the binodal, they mean little. sigma = epsilon = k_B = 1; energies are per particle.
+All are of the fluid without a cutoff unless one is given: compare simulations with long-range corrections. They were fitted to T from
+about 0.7 to 6, 10 and 9 and up to freezing; beyond, and inside the binodal, they mean little. sigma = epsilon = k_B = 1; energies are
+per particle.
 """
 
 import argparse
@@ -281,7 +282,8 @@ def main(arguments):
     parser.add_argument("--to", type=float, metavar="DENSITY", help="its end")
     parser.add_argument("--cutoff", type=float, metavar="RC", help="truncate the potential there and shift it to zero; default: neither")
     options = parser.parse_args(arguments)
-    if [value is None for name, value in vars(options).items() if name != "cutoff"] not in ([True, True, False, False], [False, False, True, True]):
+    missing = [value is None for name, value in vars(options).items() if name != "cutoff"]
+    if missing not in ([True, True, False, False], [False, False, True, True]):
         parser.error("give --temperature and --density, or --process and --to")
     try:
         print(json.dumps({name: answer(load(name, options.cutoff), options) for name in EQUATIONS}, indent=2))
