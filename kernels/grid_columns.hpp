@@ -20,12 +20,19 @@ inline std::size_t cell_along(const GridShape& grid, std::size_t axis, double x)
   return cell > 0.0 ? static_cast<std::size_t>(cell < last ? cell : last) : 0;
 }
 
-// The squared distance of a position from cells along an axis.
-inline Vector gap_squared(const GridShape& grid, std::size_t axis, double position, Vector cells) noexcept {
+// The squared distance of a position from cells along an axis. `from_low`: of the position.
+inline Vector gap_squared(const GridShape& grid, std::size_t axis, double from_low, Vector cells) noexcept {
   const Vector edge = broadcast(grid.edge[axis]);
-  const Vector beyond_face = broadcast(position - grid.low[axis]) - cells * edge;
+  const Vector beyond_face = broadcast(from_low) - cells * edge;
   const Vector gap = maximum(broadcast(0.0), maximum(broadcast(0.0) - beyond_face, beyond_face - edge));
   return gap * gap;
+}
+
+// How far a position lies from the low face of a grid, or from there the face that is nearest to it. Points outside are in the
+// outermost cells: moved to the faces, as the position is, no two of them come to be further apart.
+inline double from_low(const GridShape& grid, std::size_t axis, double position) noexcept {
+  const double x = position - grid.low[axis], most = grid.edge[axis] * static_cast<double>(grid.cells[axis]);
+  return x > 0.0 ? x < most ? x : most : 0.0;
 }
 
 // Calls visit(column, low, high) for every column within reach of a position; column is x cell * cells[1] + y cell, low and high
@@ -34,14 +41,15 @@ template <class Visit>
 inline bool for_each_column(const GridShape& grid, const double* position, double reach, Visit visit) noexcept {
   const std::size_t first_x = cell_along(grid, 0, position[0] - reach), last_x = cell_along(grid, 0, position[0] + reach);
   const std::size_t first_y = cell_along(grid, 1, position[1] - reach), last_y = cell_along(grid, 1, position[1] + reach);
-  const Vector z = broadcast((position[2] - grid.low[2]) * grid.cells_per_length[2]);
+  const double x = from_low(grid, 0, position[0]), y = from_low(grid, 1, position[1]);
+  const Vector z = broadcast(from_low(grid, 2, position[2]) * grid.cells_per_length[2]);
   const Vector cells_per_length = broadcast(grid.cells_per_length[2]), last_z = broadcast(static_cast<double>(grid.cells[2] - 1));
   alignas(64) std::int32_t low[lanes], high[lanes];
   for (std::size_t cy = first_y; cy <= last_y; cy += lanes) {
-    const Vector gap_y = gap_squared(grid, 1, position[1], count_from(static_cast<double>(cy)));
+    const Vector gap_y = gap_squared(grid, 1, y, count_from(static_cast<double>(cy)));
     const unsigned columns = bits(lanes_below(static_cast<std::ptrdiff_t>(last_y - cy + 1)));
     for (std::size_t cx = first_x; cx <= last_x; ++cx) {
-      const Vector gap_x = gap_squared(grid, 0, position[0], broadcast(static_cast<double>(cx)));
+      const Vector gap_x = gap_squared(grid, 0, x, broadcast(static_cast<double>(cx)));
       const Vector left = broadcast(reach * reach) - (gap_x + gap_y);
       const Vector half = square_root(maximum(left, broadcast(0.0))) * cells_per_length;
       store_truncated(low, maximum(z - half, broadcast(0.0)));

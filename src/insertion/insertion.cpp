@@ -48,13 +48,17 @@ const char* to_string(RegionWall wall) { return word_of(walls, wall); }
 RegionWall parse_region_wall(std::string_view word) { return parse_word(walls, "wall of a region", word); }
 
 void Region::check(const Box& box) const {
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!box.periodic[axis] && !(low[axis] >= 0.0 && high[axis] <= (1.0 + 1e-12) * box.length[axis]))
+      throw_bad_input(fmt::format("region from {} to {} along {} is not allowed: the box is open along {}, from 0 to {} is",
+                                  low[axis], high[axis], "xyz"[axis], "xyz"[axis], box.length[axis]));
     // Halves of an edge that was read from few digits may add up to a little more.
     if (!(low[axis] < high[axis] && high[axis] - low[axis] <= (1.0 + 1e-12) * box.length[axis] &&
           std::max(-low[axis], high[axis]) <= farthest_edges * box.length[axis]))
       throw_bad_input(
           fmt::format("region from {} to {} along {} is not allowed: from < to <= from + {} in this box, at most {} edges away",
                       low[axis], high[axis], "xyz"[axis], box.length[axis], farthest_edges));
+  }
 }
 
 bool Region::contains(const std::array<double, 3>& position) const {
@@ -65,6 +69,7 @@ bool Region::contains(const std::array<double, 3>& position) const {
 
 std::array<double, 3> Region::image(const Box& box, std::array<double, 3> position) const {
   for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!box.periodic[axis]) continue;
     const double centre = 0.5 * (low[axis] + high[axis]);
     position[axis] -= box.length[axis] * std::nearbyint((position[axis] - centre) / box.length[axis]);
   }

@@ -44,11 +44,13 @@ enum class RegionWall {
 const char* to_string(RegionWall wall);
 RegionWall parse_region_wall(std::string_view word);
 
-// A cuboid with faces parallel to the box's. It is periodic with the box: it may lie across faces or in another image of the box.
+// A cuboid with faces parallel to the box's. It is periodic with the box: it may lie across faces or in another image of the box,
+// but along an open axis between the faces.
 struct Region {
   std::array<double, 3> low{}, high{};  // [sigma]
 
-  // Throws Error(bad_input) unless low < high <= low + L along every axis, not too many edges from the box.
+  // Throws Error(bad_input) unless low < high <= low + L along every axis, not too many edges from the box, and in it along open
+  // axes.
   void check(const Box& box) const;
   // Of this image of a position.
   bool contains(const std::array<double, 3>& position) const;
@@ -71,7 +73,7 @@ struct InsertionOptions {
   // Limit per trial; default: four times the mean of successful trials, at least 100.
   std::optional<std::uint64_t> most_iterations;
   std::uint64_t most_trials = 10'000;  // limit per insertion
-  std::optional<Region> region;        // default: the box
+  std::optional<Region> region;        // default: the box, whose open faces are walls
   RegionWall wall = RegionWall::reflect;
   std::uint64_t seed = 1;
 

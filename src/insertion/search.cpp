@@ -39,7 +39,9 @@ InsertionSearch::InsertionSearch(const ProbeField& fluid, const InsertionOptions
       traverse_step_(options.traverse_step.value_or(0.6 * fluid.length_unit())),
       clearances_(fluid.clearances(options.clear_energy)),
       region_(options.region.value_or(Region{{}, fluid.box().length})),
-      whole_box_(!options.region),
+      has_walls_(options.region ? std::array{true, true, true}
+                                : std::array{!fluid.box().periodic[0], !fluid.box().periodic[1], !fluid.box().periodic[2]}),
+      whole_box_(!options.region && !fluid.box().has_open_axis()),
       observer_(std::move(observer)) {}
 
 InsertionSearch::Site InsertionSearch::probe(const Point& position) {
@@ -51,6 +53,7 @@ InsertionSearch::Site InsertionSearch::probe(const Point& position) {
   if (!whole_box_ && options_->wall == RegionWall::well) {
     const double wall = 10.0 * std::sqrt(dot(site.gradient, site.gradient)) + 1.0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!has_walls_[axis]) continue;
       // The next step goes down the gradient for sign 1 and up for sign -1; it must lead back into the region.
       const double sign = sign_at(site);
       if (position[axis] < region_.low[axis]) site.gradient[axis] = -sign * wall;
@@ -92,6 +95,7 @@ Point InsertionSearch::clear_start() {
 void InsertionSearch::keep_inside(Point& position) const {
   if (whole_box_ || options_->wall == RegionWall::well) return;
   for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!has_walls_[axis]) continue;
     const double low = region_.low[axis], high = region_.high[axis];
     double& x = position[axis];
     if (x < low) x = 2.0 * low - x;
@@ -100,8 +104,14 @@ void InsertionSearch::keep_inside(Point& position) const {
   }
 }
 
+bool InsertionSearch::between_walls(const Point& position) const {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (has_walls_[axis] && !(position[axis] >= region_.low[axis] && position[axis] <= region_.high[axis])) return false;
+  return true;
+}
+
 bool InsertionSearch::accepted(const Site& site) const {
-  return std::abs(site.energy - options_->target) <= allowed_ && (whole_box_ || region_.contains(site.position));
+  return std::abs(site.energy - options_->target) <= allowed_ && between_walls(site.position);
 }
 
 bool InsertionSearch::can_go_on(const Site& site) const {
@@ -261,7 +271,8 @@ bool InsertionSearch::is_near(const Point& a, const Point& b) const {
 Point InsertionSearch::place_in_region() const {
   if (whole_box_) return result_.position;
   Point place = region_.image(fluid_->box(), result_.position);
-  for (std::size_t axis = 0; axis < 3; ++axis) place[axis] = std::clamp(place[axis], region_.low[axis], region_.high[axis]);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (has_walls_[axis]) place[axis] = std::clamp(place[axis], region_.low[axis], region_.high[axis]);
   return place;
 }
 

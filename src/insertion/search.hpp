@@ -52,6 +52,7 @@ class InsertionSearch {
   Point in_region(const Point& fraction) const;
   Point place_in_region() const;
   void keep_inside(Point& position) const;
+  bool between_walls(const Point& position) const;
   bool accepted(const Site& site) const;
   bool can_go_on(const Site& site) const;
   double sign_at(const Site& site) const { return site.energy > options_->target ? 1.0 : -1.0; }
@@ -75,7 +76,8 @@ class InsertionSearch {
   double allowed_, largest_step_, traverse_step_;
   std::vector<double> clearances_;
   Region region_;
-  bool whole_box_;
+  std::array<bool, 3> has_walls_;  // along each axis
+  bool whole_box_;                 // no walls at all
   Observer observer_;
   Point start_{};
   Insertion result_;

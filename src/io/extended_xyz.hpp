@@ -16,7 +16,8 @@
 namespace lanescape {
 namespace xyz {
 struct Columns;
-}
+struct Comment;
+}  // namespace xyz
 
 // One frame of an extended XYZ file, https://github.com/libAtoms/extxyz.
 struct Frame {
@@ -24,13 +25,17 @@ struct Frame {
   std::map<std::string, std::string> info;  // the comment line's other pairs, as text; a bare word has the value "T"
 };
 
+// What a reader does with a box that is not periodic along all axes.
+enum class OpenAxes { refused, allowed };
+
 // Reads frame by frame and holds one frame in memory. Strict: ambiguous input throws Error(bad_input) with file and
 // line. Wanted are an orthorhombic Lattice, Properties with species:S:1 and pos:R:3 (other columns are skipped), pbc "T T T"
-// or none, the mixture's species and finite coordinates within 10^6 box lengths; positions may be unwrapped. With a size column,
-// each particle must have a radius or diameter, finite and above 0.
+// or none, or any where open axes are allowed, the mixture's species and finite coordinates within 10^6 box lengths; positions may
+// be unwrapped. With a size column, each particle must have a radius or diameter, finite and above 0.
 class ExtendedXyzReader {
  public:
-  ExtendedXyzReader(std::filesystem::path path, const Mixture& mixture, SizeColumn size = SizeColumn::ignored);
+  ExtendedXyzReader(std::filesystem::path path, const Mixture& mixture, SizeColumn size = SizeColumn::ignored,
+                    OpenAxes open_axes = OpenAxes::refused);
   // Accepts any species, at most 118, and numbers them in the order in which they appear.
   explicit ExtendedXyzReader(std::filesystem::path path, SizeColumn size = SizeColumn::ignored);
   // The next frame; nothing at the end of the file. A file without any frame is refused.
@@ -44,6 +49,7 @@ class ExtendedXyzReader {
  private:
   std::optional<std::string_view> next_line();
   std::size_t line_of_count();
+  Box box_of(const xyz::Comment& comment) const;
   void read_particles(std::size_t count, const xyz::Columns& columns, Configuration& configuration);
   int species_of(std::string_view word);
   [[noreturn]] void refuse(const std::string& what_and_allowed) const;
@@ -52,6 +58,7 @@ class ExtendedXyzReader {
   Mixture mixture_;
   bool accepts_any_species_ = false;
   SizeColumn size_;
+  OpenAxes open_axes_ = OpenAxes::refused;
   std::ifstream in_;
   std::vector<char> buffer_;
   std::size_t line_ = 0;

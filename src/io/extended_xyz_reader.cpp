@@ -37,8 +37,8 @@ ExtendedXyzReader::ExtendedXyzReader(std::filesystem::path path, SizeColumn size
   accepts_any_species_ = true;
 }
 
-ExtendedXyzReader::ExtendedXyzReader(std::filesystem::path path, const Mixture& mixture, SizeColumn size)
-    : path_(std::move(path)), mixture_(mixture), size_(size) {
+ExtendedXyzReader::ExtendedXyzReader(std::filesystem::path path, const Mixture& mixture, SizeColumn size, OpenAxes open_axes)
+    : path_(std::move(path)), mixture_(mixture), size_(size), open_axes_(open_axes) {
   std::error_code error;
   const auto status = std::filesystem::status(path_, error);
   if (std::filesystem::is_directory(status)) refuse("it is a folder: an extended XYZ file is needed");
@@ -96,6 +96,15 @@ int ExtendedXyzReader::species_of(std::string_view word) {
   return parse_species(word, mixture_);
 }
 
+Box ExtendedXyzReader::box_of(const Comment& comment) const {
+  Box box = parse_lattice(required(comment.lattice, "Lattice=\"Lx 0 0 0 Ly 0 0 0 Lz\""));
+  if (comment.periodic) box.periodic = parse_periodic(*comment.periodic);
+  if (open_axes_ == OpenAxes::refused && box.has_open_axis())
+    throw Refusal{
+        fmt::format("pbc \"{}\" is not allowed: the box must be periodic along all axes, \"T T T\"", printable(*comment.periodic))};
+  return box;
+}
+
 void ExtendedXyzReader::read_particles(std::size_t count, const xyz::Columns& columns, Configuration& configuration) {
   // Nothing is reserved: the count is only a claim until the lines are there.
   for (std::size_t i = 0; i < count; ++i) {
@@ -121,9 +130,8 @@ std::optional<Frame> ExtendedXyzReader::next() {
     if (!comment) refuse(fmt::format("the file ends before the comment line: {} particles are announced", count));
     Comment pairs = parse_comment(*comment);
     frame.info = std::move(pairs.info);
-    frame.configuration.box = parse_lattice(required(pairs.lattice, "Lattice=\"Lx 0 0 0 Ly 0 0 0 Lz\""));
+    frame.configuration.box = box_of(pairs);
     const Columns columns = parse_properties(required(pairs.properties, properties_example(size_)), size_);
-    if (pairs.periodic) check_periodic(*pairs.periodic);
     read_particles(count, columns, frame.configuration);
   } catch (const Refusal& refusal) {
     refuse(refusal.message);

@@ -59,7 +59,8 @@ void write_frame(std::ostream& out, const Configuration& configuration, const Mi
   std::string text =
       fmt::format("{}\nLattice=\"{} 0 0 0 {} 0 0 0 {}\" Properties=species:S:1", configuration.size(), edge[0], edge[1], edge[2]);
   for (const Column& column : columns) fmt::format_to(std::back_inserter(text), ":{}:R:{}", column.name, column.width);
-  text += " pbc=\"T T T\"";
+  const auto axis = [&](std::size_t k) { return configuration.box.periodic[k] ? 'T' : 'F'; };
+  fmt::format_to(std::back_inserter(text), " pbc=\"{} {} {}\"", axis(0), axis(1), axis(2));
   for (const auto& [key, value] : info) xyz::append_pair(text, key, value);
   text += '\n';
   for (std::size_t i = 0; i < configuration.size(); ++i) {

@@ -169,14 +169,19 @@ Box parse_lattice(std::string_view text) {
   return box;
 }
 
-void check_periodic(std::string_view text) {
-  const std::vector<std::string_view> axes = parts_of(text);
-  const bool periodic = std::all_of(axes.begin(), axes.end(), [](std::string_view axis) {
-    const std::string word = lower(axis);
-    return word == "t" || word == "true" || word == "1";
-  });
-  if ((axes.size() != 1 && axes.size() != 3) || !periodic)
-    throw Refusal{fmt::format("pbc \"{}\" is not allowed: the box must be periodic along all axes, \"T T T\"", printable(text))};
+std::array<bool, 3> parse_periodic(std::string_view text) {
+  const std::vector<std::string_view> words = parts_of(text);
+  std::vector<bool> axes;
+  for (const std::string_view word : words) {
+    const std::string axis = lower(word);
+    const bool periodic = axis == "t" || axis == "true" || axis == "1";
+    if (periodic || axis == "f" || axis == "false" || axis == "0") axes.push_back(periodic);
+  }
+  if (axes.size() != words.size() || (axes.size() != 1 && axes.size() != 3))
+    throw Refusal{fmt::format("pbc \"{}\" is not allowed: T (periodic) or F (open) along each axis is needed, as in \"T T T\"",
+                              printable(text))};
+  if (axes.size() == 1) axes.resize(3, axes[0]);
+  return {axes[0], axes[1], axes[2]};
 }
 
 void append_pair(std::string& comment, const std::string& key, const std::string& value) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -23,8 +24,8 @@ Comment parse_comment(std::string_view rest);
 const std::string& required(const std::optional<std::string>& value, const std::string& example);
 // The value of Lattice: nine numbers, or the three edges. Blanks, commas and brackets separate them.
 Box parse_lattice(std::string_view text);
-// The value of pbc: three of T, true or 1, or one for all axes.
-void check_periodic(std::string_view text);
+// The value of pbc: three of T, true, 1 and F, false, 0, or one for all axes.
+std::array<bool, 3> parse_periodic(std::string_view text);
 
 // Adds " key=value" in quotes where needed; throws Error(bad_input) for what could not be read back.
 void append_pair(std::string& comment, const std::string& key, const std::string& value);

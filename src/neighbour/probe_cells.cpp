@@ -29,9 +29,9 @@ ProbeCells::ProbeCells(const Box& box, double reach, std::size_t expected) : box
       width, width, std::max({reach / cells_per_reach, 0.25 / (width * width * density), least * least * least / (width * width)})};
   std::size_t columns = 1;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double length = box.length[axis] + 2.0 * reach;
+    const double margin = box.periodic[axis] ? reach : 0.0, length = box.length[axis] + 2.0 * margin;
     shape_.cells[axis] = std::max<std::size_t>(1, static_cast<std::size_t>(length / edges[axis]));
-    shape_.low[axis] = -reach;
+    shape_.low[axis] = -margin;
     shape_.edge[axis] = length / static_cast<double>(shape_.cells[axis]);
     shape_.cells_per_length[axis] = 1.0 / shape_.edge[axis];
     if (axis < 2) columns *= shape_.cells[axis];
@@ -51,6 +51,7 @@ void ProbeCells::for_each_image(const Point& point, Visit visit) const {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double length = box_.length[axis];
     home[axis] = box_.wrapped(axis, point[axis]);
+    if (!box_.periodic[axis]) continue;
     least[axis] = -static_cast<int>(std::floor((home[axis] + reach_) / length));
     most[axis] = static_cast<int>(std::floor((length + reach_ - home[axis]) / length));
   }

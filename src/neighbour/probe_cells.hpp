@@ -12,8 +12,9 @@
 
 namespace lanescape {
 
-// Points of one species of a periodic box and those of their images that a probe in the box can feel, by the columns of a grid.
-// Points can be inserted and removed, at the cost of moving those after them in their column.
+// Points of one species of a box and those of their images that a probe in the box can feel, by the columns of a grid. Points can
+// be inserted and removed, at the cost of moving those after them in their column. Points beyond the faces of an open axis are in
+// the outermost cells, and there a search looks for a probe beyond them.
 class ProbeCells {
  public:
   using Point = std::array<double, 3>;

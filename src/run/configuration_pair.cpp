@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "configuration/model_traits.hpp"
+#include "core/coordinate_checks.hpp"
 #include "core/error.hpp"
 #include "dispatch/isa.hpp"
 #include "interaction/sphere/check_overlap.hpp"
@@ -21,6 +22,7 @@ void check_end_points(const ConfigurationPair& pair, const AnyModel& model, cons
   if (pair.start.positions == pair.finish.positions) throw_bad_input(where + ": the two end points coincide");
   for (const Configuration* end : {&pair.start, &pair.finish}) {
     try {
+      check_periodic(end->box, "paths");
       if (is_hard(model))
         check_no_overlap(*end, kernel_table(available_isas().front()));
       else

@@ -7,6 +7,7 @@
 #include <memory>
 #include <numbers>
 
+#include "core/coordinate_checks.hpp"
 #include "core/error.hpp"
 #include "core/option_checks.hpp"
 #include "dispatch/isa.hpp"
@@ -170,6 +171,7 @@ class Densification final : public ResumableWork {
 
 void DensificationOptions::check(const FluidState& start) const {
   const Box& box = start.configuration.box;
+  check_periodic(box, "runs at rising density");
   const double density = static_cast<double>(start.configuration.size()) / box.volume();
   check_positive("temperature", temperature);
   check_positive("time step", time_step);

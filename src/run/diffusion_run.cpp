@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/coordinate_checks.hpp"
 #include "core/error.hpp"
 #include "core/option_checks.hpp"
 #include "core/overloaded.hpp"
@@ -245,6 +246,7 @@ DiffusionRunOptions soft_diffusion_options() {
 DiffusionRunResult run_diffusion(const AnyModel& model, const Configuration& start, const DiffusionRunOptions& options, Isa isa,
                                  const CheckpointOptions& checkpoint, RunMonitor& monitor) {
   options.check();
+  check_periodic(start.box, "diffusion coefficients");
   return std::visit(
       Overloaded{[&](const HardSphereModel& hard) {
                    check_no_overlap(start, kernel_table(isa));

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/coordinate_checks.hpp"
 #include "interaction/sphere/check_overlap.hpp"
 #include "interaction/state/state_mixture.hpp"
 #include "landscape/make_landscape.hpp"
@@ -191,6 +192,7 @@ EndPointRunResult summarise(const EndPointWork<Generator>& work, bool interrupte
 
 EndPointRunResult run_end_points(const AnyModel& model, const Configuration& start, const EndPointOptions& options, Isa isa,
                                  const CheckpointOptions& checkpoint, RunMonitor& monitor) {
+  check_periodic(start.box, "end points");
   check_soft_separations(start, model);
   const Mixture& mixture = mixture_of(model);
   const ParticleLayout layout = ParticleLayout::in_space_order(start, mixture.species.size());

@@ -310,6 +310,13 @@ std::vector<PairCase> open_cases(const PairForm& form) {
   return cases;
 }
 
+std::vector<PairCase> with_open_cases(const std::vector<PairCase>& cases) {
+  if (cases.empty()) return {};
+  std::vector<PairCase> all = open_cases(*cases.front().model.form);
+  all.insert(all.end(), cases.begin(), cases.end());
+  return all;
+}
+
 std::vector<PairCase> all_pair_cases() {
   std::vector<PairCase> cases = pair_cases();
   for (const PairForm& form : pair_forms().subspan(1))

@@ -24,6 +24,8 @@ std::vector<PairCase> form_cases(const PairForm& form);
 // Slabs and clusters in vacuum: boxes with one to three open axes, edges down to a fraction of the cutoff, particles outside the
 // faces.
 std::vector<PairCase> open_cases(const PairForm& form);
+// These of the form of the cases, and then the cases.
+std::vector<PairCase> with_open_cases(const std::vector<PairCase>& cases);
 // Liquids in boxes that clusters need, from single particles to some hundred; none for a form with diameters.
 std::vector<PairCase> cluster_cases(const PairForm& form);
 // pair_cases() and form_cases() of all pair potentials: what kernels of hosts are checked on. Names are unique.

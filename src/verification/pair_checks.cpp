@@ -142,18 +142,6 @@ std::vector<Deviation> verify_all_pairs(const kernels::KernelTable& table, const
   return verify_search(table, cases, PairSearch::all_pairs, form + "_");
 }
 
-namespace {
-
-// What lists know beyond the searches over all pairs and clusters.
-std::vector<PairCase> with_open_cases(const std::vector<PairCase>& cases) {
-  if (cases.empty()) return {};
-  std::vector<PairCase> all = open_cases(*cases.front().model.form);
-  all.insert(all.end(), cases.begin(), cases.end());
-  return all;
-}
-
-}  // namespace
-
 std::vector<Deviation> verify_lists(const kernels::KernelTable& table, const std::vector<PairCase>& cases,
                                     const std::string& form) {
   return verify_search(table, with_open_cases(cases), PairSearch::list, form + "_list_");

@@ -63,7 +63,7 @@ std::vector<Deviation> verify_probes(const kernels::KernelTable& table, const st
       gradient(table, form + "_probe gradient", tolerance::pair_gradient),
       energy_bits(table, form + "_probe, " + form + "_probe_energies: same energy", tolerance::exact),
       clear(table, "probe_first_clear (" + form + ")", tolerance::exact);
-  for (const auto& [name, model, configuration] : cases) {
+  for (const auto& [name, model, configuration] : with_open_cases(cases)) {
     if (!fits_probe(model, configuration.box)) continue;
     const double allowance = rounding_allowance(configuration);
     clear.add(name, wrongly_clear(model, configuration, table));

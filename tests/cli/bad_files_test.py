@@ -2,7 +2,7 @@
 
 import unittest
 
-from cli_support import DATA, ARGON, WARM, LATTICE, PROPERTIES, HEADER, TWO, TWO_MOVED, OVERLAP, ProgramTest, frame
+from cli_support import DATA, ARGON, WARM, LATTICE, PROPERTIES, HEADER, SPHERE_HEADER, TWO, TWO_MOVED, OVERLAP, ProgramTest, frame
 
 
 class BadFiles(ProgramTest):
@@ -23,9 +23,20 @@ class BadFiles(ProgramTest):
                              (f'Lattice="nan 0 0 0 4 0 0 0 4" {PROPERTIES}', "Lattice"),
                              (f'Lattice="inf 0 0 0 4 0 0 0 4" {PROPERTIES}', "Lattice"),
                              (f'Lattice="4 0 0 0 4 0 0 0" {PROPERTIES}', "Lattice"),
-                             (f'Lattice="4 0 0 0 4 0 0 0 4" {PROPERTIES} pbc="T T F"', "pbc")):
+                             (f'Lattice="4 0 0 0 4 0 0 0 4" {PROPERTIES} pbc="T F"', "pbc")):
             with self.subTest(header):
                 self.every_reader_refuses(frame(*TWO, header=header), "bad.xyz:2", word)
+
+    def test_open_axes_are_refused_by_all_that_need_a_periodic_box(self):
+        header = HEADER.replace("T T T", "T T F")
+        soft, hard = self.file("open.xyz", frame(*TWO, header=header)), self.file(
+            "spheres.xyz", frame("Ar 0 0 0 0.5", "Ar 2 2 2 0.5", header=SPHERE_HEADER.replace("T T T", "T T F")))
+        for arguments in (("path", "--pair", soft, *ARGON), ("endpoints", "--start", soft, *WARM, *ARGON),
+                          ("diffusion", "--start", soft, "--temperature", "1", *ARGON), ("shorten", "--pair", soft, *ARGON),
+                          ("insert", soft, "--densify", "0.5", *ARGON), ("verify", soft, "--model", "lennard-jones"), ("overlap", hard),
+                          ("path", "--pair", hard, "--model", "hard-sphere")):
+            with self.subTest(arguments[0]):
+                self.refused(*arguments, says='pbc "T T F" is not allowed: the box must be periodic along all axes')
 
     def test_particle_lines_that_do_not_fit_are_refused(self):
         for line, word in (("Ar 1 1", "columns"), ("Ar 1 1 1 1", "columns"), ("Xx 1 1 1", "Xx"), ("Ar nan 1 1", "nan"),

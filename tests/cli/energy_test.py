@@ -8,7 +8,7 @@ import unittest
 
 import numpy
 
-from cli_support import DATA, ARGON, TINY, FLUID, PROPERTIES, TWO, TWO_MOVED, ProgramTest, frame, lanescape
+from cli_support import DATA, EXAMPLES, ARGON, TINY, FLUID, HEADER, PROPERTIES, TWO, TWO_MOVED, ProgramTest, frame, lanescape
 
 
 class Energy(ProgramTest):
@@ -42,6 +42,30 @@ class Energy(ProgramTest):
         for file in sorted((DATA / "foreign").iterdir()):
             with self.subTest(file.name):
                 self.assertEqual(self.done("energy", file, "--forces"), expected)
+
+    def test_slabs_and_clusters_are_periodic_boxes_with_a_gap(self):
+        particles = ("Ar 0.3 1 1", "Ar 3.4 1.3 1", "Ar -1 1.2 2", "Ar 4.9 1.1 2.4", "Ar 2 3.9 0.1")
+        for pbc, edges in (("F T T", "12 4 4"), ("[0, 1, 1]", "12 4 4"), ("T F T", "4 12 4"), ("F F T", "12 12 4"), ("F", "12 12 12")):
+            value = pbc if pbc.startswith("[") else f'"{pbc}"'
+            cell = "Lattice=\"{} 0 0 0 {} 0 0 0 {}\" " + PROPERTIES
+            opened = self.file("open.xyz", frame(*particles, header=cell.format(4, 4, 4) + f" pbc={value}"))
+            gap = self.file("gap.xyz", frame(*particles, header=cell.format(*edges.split())))
+            expected = self.done("energy", gap, "--model", "lennard-jones", "--forces")
+            for more in ((), ("--backend", "reference"), ("--precision", "mixed")):
+                with self.subTest(f"{pbc} {more}"):
+                    run = self.done("energy", opened, "--model", "lennard-jones", "--forces", *more)
+                    tolerance = 1e-5 if "mixed" in more else 1e-12
+                    self.assertAlmostEqual(run["energy"], expected["energy"], delta=tolerance)
+                    self.assertAlmostEqual(run["virial"], expected["virial"], delta=10 * tolerance)
+                    numpy.testing.assert_allclose(run["forces"], expected["forces"], rtol=0, atol=20 * tolerance)
+
+    def test_open_axes_are_refused_where_they_make_no_sense(self):
+        slab = self.file("slab.xyz", frame(*TWO, header=HEADER.replace("T T T", "T F T")))
+        self.refused("energy", slab, "--model", "lennard-jones", "--truncation", "tail", says="open along y")
+        self.refused("energy", slab, *ARGON, says="which open axes need")
+        ucg = self.file("ucg.xyz", frame("Ar 0 0 0", "Ar 1.5 0 0", header=HEADER.replace("T T T", "T F T")))
+        for more in ((), ("--backend", "reference")):
+            self.refused("energy", ucg, "--model-file", EXAMPLES / "liquid_vapour.toml", *more, says="open along y")
 
     def test_frames_that_are_not_used_need_not_be_whole(self):
         expected = self.done("energy", self.file("whole.xyz", frame(*TWO)), *ARGON)

@@ -56,6 +56,25 @@ class Insertions(ProgramTest):
         plain = self.done("insert", self.fluid, *TAIL, "--region", region)
         self.assertEqual(without_seconds(plain), without_seconds(self.done("insert", self.fluid, *TAIL, f"--region={region}")))
 
+    def test_a_slab_takes_particles_between_its_faces_and_stays_a_slab(self):
+        slab = self.file("slab.xyz", self.fluid.read_text().replace("T T T", "F T T"))
+        edge = [float(x) for x in self.fluid.read_text().split('Lattice="')[1].split('"')[0].split()][::4]
+        for extra in ((), ("--method", "screened"), ("--region", f"0,2,0,{edge[1]},0,{edge[2]}", "--wall", "well"), ("--remove", "2")):
+            out = self.folder / f"slab{'-'.join(extra[:2])}".replace(",", "")
+            run = self.done("insert", slab, "--model", "lennard-jones", "--count", "5", *extra, "--out", out)
+            self.assertEqual((len(run["insertions"]), run["failures"]), (5, 0))
+            for insertion in run["insertions"]:
+                self.assertTrue(0 <= insertion["position"][0] <= edge[0])
+            self.assertIn('pbc="F T T"', (out / "inserted.extxyz").read_text())
+            if "--remove" in extra:
+                continue
+            before = self.done("energy", slab, "--model", "lennard-jones")["energy"]
+            after = self.done("energy", out / "inserted.extxyz", "--model", "lennard-jones")["energy"]
+            self.assertAlmostEqual(after - before, sum(i["energy"] for i in run["insertions"]), delta=1e-11)
+        self.refused("insert", slab, "--model", "lennard-jones", "--region=-1,1,0,4,0,4", says="open along x")
+        self.refused("insert", slab, *TAIL, says="open along x")
+        self.refused("insert", "--densify", "0.5", slab, "--model", "lennard-jones", says='pbc "F T T"')
+
     def test_species_are_inserted_and_removed(self):
         mixture = DATA / "ka_dilute_50.extxyz"
         out = self.folder / "out"

@@ -121,7 +121,7 @@ Json run_energy(EnergyState& state, Options& options) {
   const Precision precision = state.system.resolve_precision();
   if (state.backend == "reference" && precision == Precision::mixed)
     throw_bad_input("--precision: mixed is not allowed with the reference, which is in double precision");
-  const Configuration configuration = read_first_frame(state.file, model);
+  const Configuration configuration = read_first_frame(state.file, model, OpenAxes::allowed);
   state.system.check_precision_in(model, configuration.box);
   const bool simd = state.backend == "simd";
   const PairSearchOptions search{.threads = state.common.threads, .precision = precision};

@@ -99,7 +99,7 @@ Json to_json(const InsertionRunResult& run, const InsertionRunOptions& options) 
 
 Json run_into_file(InsertState& state, Options& options, const PairModel& model, Isa isa, int& status) {
   if (state.file.empty()) throw_bad_input("FILE is needed: the fluid to insert into; without one, --scan or --densify");
-  Configuration fluid = read_first_frame(state.file, model);
+  Configuration fluid = read_first_frame(state.file, model, OpenAxes::allowed);
   const InsertionRunOptions with = run_options(state, model);
   with.check(model, fluid);
   OutputFolder folder = open_folder(state.common);

@@ -12,6 +12,7 @@
 #include "core/run_monitor.hpp"
 #include "dispatch/isa.hpp"
 #include "interaction/pair/pair_interaction.hpp"
+#include "io/extended_xyz.hpp"
 #include "json.hpp"
 #include "options.hpp"
 #include "output_folder.hpp"
@@ -72,8 +73,8 @@ struct SystemOptions {
 };
 
 // The first frame of a file of soft particles. Throws Error(bad_input) naming the file if any frame is malformed or the first one
-// has overlaps.
-Configuration read_first_frame(const std::string& file, const AnyModel& model);
+// has overlaps. `open_axes`: whether the subcommand can use slabs and clusters.
+Configuration read_first_frame(const std::string& file, const AnyModel& model, OpenAxes open_axes = OpenAxes::refused);
 // The first frame of a file of hard spheres with its radii, of any species or of the model's. Throws Error(bad_input) if any frame
 // is malformed.
 Configuration read_hard_frame(const std::string& file);

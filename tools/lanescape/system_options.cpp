@@ -187,8 +187,8 @@ Configuration first_of(ExtendedXyzReader& reader) {
 
 }  // namespace
 
-Configuration read_first_frame(const std::string& file, const AnyModel& model) {
-  ExtendedXyzReader reader(file, mixture_of(model), traits_of(model).sizes);
+Configuration read_first_frame(const std::string& file, const AnyModel& model, OpenAxes open_axes) {
+  ExtendedXyzReader reader(file, mixture_of(model), traits_of(model).sizes, open_axes);
   Configuration first = first_of(reader);
   check_separations_in(file, first, model);
   return first;

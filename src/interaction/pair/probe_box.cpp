@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "core/coordinate_checks.hpp"
 #include "core/error.hpp"
 
@@ -19,14 +21,21 @@ Point ProbeBox::home(const Point& position) const {
     if (!(x >= 0.0 && x < box_.length[axis])) {
       check_finite({&x, 1});
       x = box_.wrapped(axis, x);
+      if (!box_.periodic[axis]) check_not_too_far(axis, x);
     }
     home[axis] = x / unit_;
   }
   return home;
 }
 
+void ProbeBox::check_not_too_far(std::size_t axis, double x) const {
+  const double most = largest_edge * unit_;
+  if (!(std::abs(x) <= most))
+    throw_bad_input(fmt::format("{} coordinate {} of a particle is not allowed in a box that is open along {}: from {} to {} are",
+                                "xyz"[axis], x, "xyz"[axis], -most, most));
+}
+
 void ProbeBox::check(const PairModel& model, double cutoff, const char* work) const {
-  check_periodic(box_, "single particles");
   for (const double edge : box_.length)
     if (edge > largest_edge * unit_)
       throw_bad_input(

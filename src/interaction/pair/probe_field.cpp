@@ -23,9 +23,11 @@ double largest_diameter(const PairModel& model, const Configuration& fluid, doub
 // That of a particle's own images and its own long-range correction.
 double energy_alone(const PairModel& model, const Box& box, int species, double diameter, const kernels::KernelTable& table) {
   Configuration alone{box, {species}, {0.0, 0.0, 0.0}};
+  // There are no own images under this rule, and in a box with open axes it asks for room for a list.
+  if (model.images == ImageRule::minimum) alone.box.periodic = {true, true, true};
   if (model.form->has_diameters) alone.diameters = {diameter};
   const ParticleLayout layout = ParticleLayout::in_users_order(alone, model.species.size());
-  return PairInteraction(model, box, layout, table).energy(layout.to_slots(alone.positions));
+  return PairInteraction(model, alone.box, layout, table).energy(layout.to_slots(alone.positions));
 }
 
 }  // namespace

@@ -92,6 +92,7 @@ StateMixtureParts make_parts(const StateMixtureModel& given) {
 }
 
 void check_cutoff(const StateMixtureModel& model, const Box& box) {
+  check_periodic(box, "sites in states");
   double reach = 0.0;
   for (std::size_t s = 0; s < model.species.size(); ++s)
     for (std::size_t t = 0; t < model.species.size(); ++t) reach = std::max(reach, model.reach(s, t));

@@ -3,6 +3,7 @@
 #include "insertion/insertion.hpp"
 #include "insertion/removal.hpp"
 #include "insertion/search.hpp"
+#include "refusal.hpp"
 #include "thin_mixture.hpp"
 
 namespace lanescape {
@@ -68,6 +69,63 @@ TEST(Region, ARegionMayLieAcrossFacesOfTheBox) {
       EXPECT_GT(below, 0U) << to_string(method);
       EXPECT_GT(above, 0U) << to_string(method);
     }
+}
+
+// A slab: its open faces are walls, and nothing is shifted across them.
+TEST(Region, OpenFacesAreWalls) {
+  const PairModel model = kob_andersen();
+  for (const InsertionMethod method : every_method) {
+    Configuration fluid = thin_mixture();
+    fluid.wrap();
+    fluid.box.periodic = {false, true, true};
+    ProbeField field(model, fluid, 0, table());
+    InsertionOptions options = options_with(-3.5, method);
+    std::size_t outside = 0;
+    for (std::uint64_t number = 0; number < 30; ++number) {
+      InsertionSearch search(field, options, number, 0.035, 100, [&](std::uint64_t, const Point& position, double) {
+        outside += position[0] < 0.0 || position[0] > fluid.box.length[0];
+      });
+      search.run();
+      EXPECT_TRUE(search.result().found);
+    }
+    EXPECT_EQ(outside, 0U) << to_string(method);
+    InsertionHistory history;
+    for (const Insertion& place : insert_particles(field, options, 10, history, 2)) {
+      ASSERT_TRUE(place.found) << to_string(method);
+      EXPECT_GE(place.position[0], 0.0);
+      EXPECT_LE(place.position[0], fluid.box.length[0]);
+    }
+  }
+}
+
+TEST(Region, LiesBetweenOpenFaces) {
+  const Box box{{5.0, 6.0, 7.0}, {false, true, true}};
+  EXPECT_NO_THROW((Region{{0.0, -3.0, 0.0}, {5.0, 3.0, 7.0}}.check(box)));
+  for (const Region& region : {Region{{-0.1, 0.0, 0.0}, {1.0, 6.0, 7.0}}, Region{{4.0, 0.0, 0.0}, {5.1, 6.0, 7.0}},
+                               Region{{6.0, 0.0, 0.0}, {7.0, 6.0, 7.0}}}) {
+    const std::string message = refusal([&] { region.check(box); });
+    EXPECT_NE(message.find("open along x, from 0 to 5"), std::string::npos) << message;
+  }
+  const Region region{{0.5, -3.0, 0.0}, {1.5, 3.0, 7.0}};
+  EXPECT_EQ(region.image(box, {6.0, 5.0, 1.0}), (Point{6.0, -1.0, 1.0}));
+}
+
+TEST(Region, KeepsItsWallsBesideAnOpenFace) {
+  const PairModel model = kob_andersen();
+  Configuration fluid = thin_mixture();
+  fluid.wrap();
+  fluid.box.periodic = {false, true, true};
+  for (const RegionWall wall : {RegionWall::reflect, RegionWall::well}) {
+    ProbeField field(model, fluid, 0, table());
+    InsertionOptions options = options_with(-2.0);
+    options.wall = wall;
+    options.region = Region{{0.0, -1.0, 0.0}, {1.2, 1.5, fluid.box.length[2]}};
+    InsertionHistory history;
+    for (const Insertion& place : insert_particles(field, options, 6, history, 1)) {
+      ASSERT_TRUE(place.found);
+      EXPECT_TRUE(options.region->contains(options.region->image(fluid.box, place.position)));
+    }
+  }
 }
 
 TEST(Region, ARegionInAnotherImageOfTheBoxHasTheSamePlacesToRounding) {

@@ -53,6 +53,20 @@ TEST(ExtendedXyz, KeysOfTheContractIgnoreCaseAndPbcMayBeAbsent) {
   EXPECT_EQ(read(with_lattice("4 0 0 0 5 0 0 0 6")).configuration.size(), 1u);
 }
 
+TEST(ExtendedXyz, OpenAxesAreReadWhereTheyAreAllowed) {
+  const TemporaryFolder folder;
+  const auto box_of = [&](const std::string& pbc) {
+    return ExtendedXyzReader(folder.file("open.extxyz", with_pbc(pbc)), kob_andersen(), SizeColumn::ignored, OpenAxes::allowed)
+        .next()
+        ->configuration.box;
+  };
+  EXPECT_EQ(box_of("\"F T T\""), (Box{{4.0, 5.0, 6.0}, {false, true, true}}));
+  EXPECT_EQ(box_of("[1, 0, 1]"), (Box{{4.0, 5.0, 6.0}, {true, false, true}}));
+  EXPECT_EQ(box_of("F"), (Box{{4.0, 5.0, 6.0}, {false, false, false}}));
+  EXPECT_EQ(box_of("\"T T T\""), (Box{{4.0, 5.0, 6.0}}));
+  expect_contains(refusal([&] { box_of("\"F T\""); }), "pbc \"F T\"");
+}
+
 TEST(ExtendedXyz, OtherPairsOfTheCommentLineAreKeptAsText) {
   const Frame result =
       read("1\n" + comment + " energy=-1.5 note=\"say \\\"hi\\\" = \\\\\" bare stress=[[1, 2], [3, 4]] spaced = x\nNi 0 1 2\n");

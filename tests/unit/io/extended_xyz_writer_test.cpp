@@ -45,6 +45,17 @@ TEST(ExtendedXyz, WrittenFramesReadBackBitForBit) {
   EXPECT_EQ(result.info, info);
 }
 
+TEST(ExtendedXyz, WrittenOpenAxesReadBack) {
+  Configuration written = awkward_configuration();
+  written.box.periodic = {true, false, false};
+  std::ostringstream out;
+  write_frame(out, written, kob_andersen(), {});
+  expect_contains(out.str(), "pbc=\"T F F\"");
+  const TemporaryFolder folder;
+  ExtendedXyzReader reader(folder.file("open.extxyz", out.str()), kob_andersen(), SizeColumn::ignored, OpenAxes::allowed);
+  EXPECT_EQ(reader.next()->configuration.box, written.box);
+}
+
 TEST(ExtendedXyz, WrittenFramesFollowEachOther) {
   std::ostringstream out;
   for (int i = 0; i < 2; ++i) write_frame(out, awkward_configuration(), kob_andersen(), {});

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "refusal.hpp"
+
 namespace lanescape {
 namespace {
 
@@ -27,6 +29,14 @@ TEST(ConfigurationPair, EndsBeyondTheBoxDoNotLookWrapped) {
   ConfigurationPair pair = moving(0.5, 5.5);
   pair.finish.positions[0] = 4.5;
   EXPECT_FALSE(looks_wrapped(pair));
+}
+
+TEST(ConfigurationPair, InBoxesWithOpenAxesIsRefused) {
+  ConfigurationPair pair = moving(0.5, 5.5);
+  check_end_points(pair, lennard_jones(), "pair 1");
+  pair.start.box.periodic[0] = pair.finish.box.periodic[0] = false;
+  EXPECT_EQ(testing::refusal([&] { check_end_points(pair, lennard_jones(), "pair 1"); }),
+            "pair 1, first end: paths are not allowed in a box that is open along x: it must be periodic along all axes");
 }
 
 }  // namespace
