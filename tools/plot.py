@@ -11,6 +11,7 @@ Reads the files that `lanescape path`, `shorten`, `endpoints`, `diffusion`, `ins
   path-0001-trials.csv      lengths that the trials of a shortening found
   endpoints-trace.csv, radial-distribution.csv     if the run made end points
   diffusion.csv             correlations and displacements
+  relaxation.csv            scattering function, alpha_2, chi_4 and displacements at lags spaced by factors
   densification.csv         growth at constant energy
   profiles.csv              density and states of a slab
   scan.csv, holes.csv, errors.csv     cost of insertion, sizes of holes, convergence of errors
@@ -23,6 +24,7 @@ Writes into DIR:
                       shortening
   shortening.png      path length against trials
   diffusion.png       velocity correlation, its integral and the mean squared displacement
+  relaxation.png      scattering function, mean squared displacement, alpha_2 and chi_4 against the logarithm of time
   equilibration.png   temperature, potential energy, energy drift and radial distribution functions; for hard spheres
                       compressibility, collision rate and radial distribution functions
   densification.png   energy, pressure, temperature and excess energy against density; for the Lennard-Jones model with long-range
@@ -49,6 +51,7 @@ from plot_equilibration import draw_equilibration, read_equilibration
 from plot_insertion import draw_insertion, read_insertion
 from plot_path import draw_path, draw_paths, read_paths
 from plot_path_statistics import draw_statistics, read_histograms, read_particle_ratios
+from plot_relaxation import draw_relaxation, read_relaxation
 from plot_shortening import draw_shortened, draw_shortening, read_shortened, read_trials
 from plot_slab import draw_slab, read_slab
 from plot_style import read_result, read_run_file
@@ -65,10 +68,10 @@ def draw_folder(folder):
     result, run = read_result(folder), read_run_file(folder)
     paths = read_paths(folder, result)
     histograms, ratios = read_histograms(folder, paths), read_particle_ratios(folder, paths)
-    equilibration, diffusion = read_equilibration(folder), read_diffusion(folder)
+    equilibration, diffusion, relaxation = read_equilibration(folder), read_diffusion(folder), read_relaxation(folder)
     insertion, slab = read_insertion(folder), read_slab(folder)
     trials, shortened = read_trials(folder), read_shortened(folder, result)
-    if not paths and not insertion and all(table is None for table in (equilibration, diffusion, slab, trials, shortened)):
+    if not paths and not insertion and all(table is None for table in (equilibration, diffusion, relaxation, slab, trials, shortened)):
         raise Unusable(
             f"{folder}: neither paths in result.json nor a table of a shortening, end points, diffusion, insertion or a slab: nothing to draw")
     made = {**result, "model": result.get("model") or run.get("model", "")}
@@ -79,6 +82,8 @@ def draw_folder(folder):
     draw_statistics(folder, paths, histograms, ratios, made, temperature)
     if diffusion is not None:
         draw_diffusion(folder, diffusion, made, temperature)
+    if relaxation is not None:
+        draw_relaxation(folder, relaxation, made, temperature)
     draw_insertion(folder, insertion, made, run)
     if shortened is not None:
         draw_shortened(folder, shortened, made, temperature)

@@ -17,7 +17,9 @@ std::vector<double> HardSphereModel::radii_of(const std::vector<int>& species_of
   return radii;
 }
 
-double HardSphereModel::length_unit() const { return length_unit_of(*std::max_element(diameters.begin(), diameters.end())); }
+double HardSphereModel::largest_size() const { return *std::max_element(diameters.begin(), diameters.end()); }
+
+double HardSphereModel::length_unit() const { return length_unit_of(largest_size()); }
 
 void HardSphereModel::check() const {
   check_species();

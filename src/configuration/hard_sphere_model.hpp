@@ -15,6 +15,7 @@ struct HardSphereModel : Mixture {
   std::vector<double> diameters;  // per species [sigma]
 
   double radius(std::size_t species_index) const { return 0.5 * diameters[species_index]; }
+  double largest_size() const;  // diameter [sigma]
   // The unit of length for its spheres [sigma].
   double length_unit() const;
   // One radius per particle [sigma].

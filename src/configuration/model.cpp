@@ -53,6 +53,10 @@ const Mixture& mixture_of(const AnyModel& model) {
   return std::visit([](const Mixture& mixture) -> const Mixture& { return mixture; }, model);
 }
 
+double largest_size(const AnyModel& model) {
+  return std::visit([](const auto& of_kind) { return of_kind.largest_size(); }, model);
+}
+
 double length_unit(const AnyModel& model) {
   return std::visit([](const auto& of_kind) { return of_kind.length_unit(); }, model);
 }

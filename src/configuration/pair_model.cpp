@@ -33,9 +33,11 @@ double PairModel::largest_cutoff() const {
   return largest;
 }
 
-double PairModel::length_unit(double largest_diameter) const {
-  return length_unit_of(form->has_diameters ? largest_diameter : *std::max_element(sigma.begin(), sigma.end()));
+double PairModel::largest_size(double largest_diameter) const {
+  return form->has_diameters ? largest_diameter : *std::max_element(sigma.begin(), sigma.end());
 }
+
+double PairModel::length_unit(double largest_diameter) const { return length_unit_of(largest_size(largest_diameter)); }
 
 PairCorrection PairModel::correction(const PairNumbers& numbers) const {
   if (truncation == Truncation::plain || truncation == Truncation::tail) return {};

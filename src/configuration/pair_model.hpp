@@ -41,7 +41,9 @@ struct PairModel : Mixture {
   PairNumbers numbers(std::size_t ab) const { return {epsilon[ab], sigma[ab], form_numbers}; }
   double cutoff_of(std::size_t ab) const { return cutoff * sigma[ab]; }  // [sigma]
   double largest_cutoff() const;                                         // of all pairs [sigma]
-  // The unit of length for its particles, of which the largest has this diameter where they have diameters of their own [sigma].
+  // The largest sigma, or this diameter of the largest particle where particles have diameters of their own [sigma].
+  double largest_size(double largest_diameter = 1.0) const;
+  // The unit of length for its particles, likewise [sigma].
   double length_unit(double largest_diameter = 1.0) const;
   // What the truncation adds to u(r) of a pair of species.
   PairCorrection correction(const PairNumbers& numbers) const;

@@ -94,15 +94,17 @@ double StateMixtureModel::reach(std::size_t s, std::size_t t) const {
 }
 
 // That of the largest Lennard-Jones sigma; where there are tables only, of a sigma whose usual cutoff is the largest reach.
-double StateMixtureModel::length_unit() const {
+double StateMixtureModel::largest_size() const {
   constexpr double usual_cutoff = 2.5;
   double largest = 0.0, reach_of_any = 0.0;
   for (const Potential& potential : potentials)
     if (const auto* lj = std::get_if<LennardJones>(&potential)) largest = std::max(largest, lj->sigma);
   for (std::size_t k = 0; k < filter.size(); ++k)
     reach_of_any = std::max(reach_of_any, reach(k / species.size(), k % species.size()));
-  return length_unit_of(largest > 0.0 ? largest : reach_of_any / usual_cutoff);
+  return largest > 0.0 ? largest : reach_of_any / usual_cutoff;
 }
+
+double StateMixtureModel::length_unit() const { return length_unit_of(largest_size()); }
 
 StateMixtureModel StateMixtureModel::in_unit(double unit) const {
   StateMixtureModel model = *this;

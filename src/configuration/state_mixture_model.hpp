@@ -57,6 +57,8 @@ struct StateMixtureModel : Mixture {
   double size_of(std::size_t s, std::size_t t) const;
   // The distance up to which two sites of these species interact [sigma].
   double reach(std::size_t s, std::size_t t) const;
+  // The largest sigma; without any, the longest reach over 2.5 [sigma].
+  double largest_size() const;
   // The unit of length for its sites [sigma].
   double length_unit() const;
   // The same model with lengths in another unit.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -14,6 +16,10 @@ struct Estimate {
 
 // The mean is 0 if there are no values.
 Estimate estimate_mean(std::span<const double> values);
+// A function of means over `count` independent values. `without(k)` is the function without value k, and without(count) that of
+// all, which is the result. Its error is the jackknife's (doi 10.1214/aos/1176345462): the standard error where the function is
+// linear.
+Estimate jackknife(std::size_t count, const std::function<double(std::size_t)>& without);
 // The upper of the two middle values of an even number; 0 if there are no values.
 double median(std::vector<double> values);
 

@@ -45,12 +45,15 @@ class HardSource {
     virial_begin_ = dynamics_.virial();
     recorded_ = 0;
   }
-  void record(TrajectoryRecord& record) {
+  // Moves to the next record.
+  void advance() {
     const double time = begin_ + static_cast<double>(recorded_++) * options_->window.interval;
     dynamics_.advance_to(time);
     dynamics_.positions(time, scratch_);
-    record.record(layout_->to_slots(dynamics_.velocities()), layout_->to_slots(scratch_));
+    position_ = layout_->to_slots(scratch_);
   }
+  AlignedArray velocity() const { return layout_->to_slots(dynamics_.velocities()); }
+  const AlignedArray& position() const { return position_; }
   void end_trajectory() {
     virial_ += dynamics_.virial() - virial_begin_;
     time_ += dynamics_.time() - begin_;
@@ -73,6 +76,7 @@ class HardSource {
   const DiffusionRunOptions* options_;
   EventDriven dynamics_;
   std::vector<double> scratch_;
+  AlignedArray position_;
   double begin_ = 0.0, virial_begin_ = 0.0, virial_ = 0.0, time_ = 0.0;
   std::uint64_t recorded_ = 0;
 };
@@ -105,7 +109,8 @@ class SoftSource {
   }
   bool failed() const { return generator_.phase() == EndPointGenerator::Phase::temperature_not_held; }
   void begin_trajectory() { recorded_ = 0; }
-  void record(TrajectoryRecord& record) {
+  // Moves to the next record.
+  void advance() {
     VelocityVerlet& verlet = generator_.verlet();
     if (recorded_ > 0) run(steps_per_record_);
     if (recorded_++ % records_per_virial == 0) {
@@ -116,8 +121,9 @@ class SoftSource {
           volume_;
       ++samples_;
     }
-    record.record(verlet.velocity(), verlet.position());
   }
+  const AlignedArray& velocity() { return generator_.verlet().velocity(); }
+  const AlignedArray& position() { return generator_.verlet().position(); }
   void end_trajectory() { run(options_->between); }
   void finish(DiffusionRunResult& result) const {
     if (samples_ == 0) return;
@@ -156,30 +162,35 @@ class DiffusionWork final : public ResumableWork {
       : source_(model, layout, start, options, isa),
         diffusion_(layout, options.window),
         record_(layout, options.window),
+        relaxation_(layout, relaxation_window(model, options)),
         options_(&options) {}
 
   bool finished() const override { return source_.failed() || trajectories_ == options_->trajectories; }
   void advance(RunMonitor& monitor) override {
     if (equilibrated_ == 0) return equilibrate(monitor);
-    if (record_.records() == 0) source_.begin_trajectory();
-    do source_.record(record_);
-    while (!record_.full() && record_.records() % records_per_report != 0);
-    if (record_.full()) end_trajectory();
-    const double part = static_cast<double>(record_.records()) / static_cast<double>(options_->window.records);
+    if (records_ == 0) source_.begin_trajectory();
+    do record();
+    while (records_ < records_of_trajectory() && records_ % records_per_report != 0);
+    if (records_ == records_of_trajectory()) end_trajectory();
+    const double part = static_cast<double>(records_) / static_cast<double>(records_of_trajectory());
     monitor.progress("trajectories", static_cast<double>(trajectories_) + part, static_cast<double>(options_->trajectories));
   }
-  bool saveable() const override { return record_.records() == 0; }
+  bool saveable() const override { return records_ == 0; }
   bool save_due() const override { return equilibrated_ != 0; }
   void exchange(Archive& archive) override {
     source_.exchange(archive);
     diffusion_.exchange(archive);
+    relaxation_.exchange(archive);
     archive.field("equilibrated", equilibrated_);
     archive.field("trajectories", trajectories_);
   }
 
   DiffusionRunResult result(bool interrupted) const {
-    DiffusionRunResult result{
-        .diffusion = diffusion_, .interrupted = interrupted, .equilibrated = !source_.failed(), .seconds = clock().seconds()};
+    DiffusionRunResult result{.diffusion = diffusion_,
+                              .relaxation = relaxation_,
+                              .interrupted = interrupted,
+                              .equilibrated = !source_.failed(),
+                              .seconds = clock().seconds()};
     source_.finish(result);
     return result;
   }
@@ -190,18 +201,28 @@ class DiffusionWork final : public ResumableWork {
     equilibrated_ = part >= 1.0 ? 1 : 0;
     monitor.progress("equilibration", part, 1.0);
   }
+  std::uint64_t records_of_trajectory() const { return std::max(options_->window.records, relaxation_.window().records); }
+  void record() {
+    source_.advance();
+    if (!record_.full()) record_.record(source_.velocity(), source_.position());
+    if (records_ < relaxation_.window().records) relaxation_.record(source_.position());
+    ++records_;
+  }
   void end_trajectory() {
     diffusion_.add_trajectory(record_);
     source_.end_trajectory();
     record_.clear();
+    records_ = 0;
     ++trajectories_;
   }
 
   Source source_;
   DiffusionAccumulator diffusion_;
   TrajectoryRecord record_;
+  RelaxationAccumulator relaxation_;
   const DiffusionRunOptions* options_;
   std::uint64_t equilibrated_ = 0, trajectories_ = 0;
+  std::uint64_t records_ = 0;  // of the current trajectory
 };
 
 template <class Source, class SourceModel>
@@ -217,6 +238,21 @@ DiffusionRunResult run(const SourceModel& model, const Configuration& start, con
 void DiffusionRunOptions::check() const {
   window.check();
   check_at_least_one("number of trajectories", trajectories);
+}
+
+RelaxationWindow relaxation_window(const AnyModel& model, const DiffusionRunOptions& options) {
+  const RelaxationOptions& given = options.relaxation;
+  const double size = largest_size(model);
+  RelaxationWindow window{options.window.interval, given.records.value_or(options.window.records), given.wave_numbers,
+                          given.overlap_length.value_or(0.3 * size)};
+  const std::size_t species = mixture_of(model).species.size();
+  if (window.wave_numbers.empty()) window.wave_numbers = {7.25 / size};
+  if (window.wave_numbers.size() == 1) window.wave_numbers.assign(species, window.wave_numbers[0]);
+  if (window.wave_numbers.size() != species)
+    throw_bad_input(fmt::format("{} wave numbers are given for model {}: 1 is allowed, or {}, one for each species",
+                                window.wave_numbers.size(), mixture_of(model).name, species));
+  window.check();
+  return window;
 }
 
 DiffusionRunOptions source_diffusion_options(std::size_t species, double packing_fraction) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include "configuration/configuration.hpp"
 #include "configuration/model.hpp"
@@ -11,12 +12,21 @@
 #include "dynamics/end_points.hpp"
 #include "dynamics/hard_end_points.hpp"
 #include "observables/diffusion.hpp"
+#include "observables/relaxation.hpp"
 #include "run/run_loop.hpp"
 
 namespace lanescape {
 
+// What is measured beside diffusion at lags spaced by factors.
+struct RelaxationOptions {
+  std::vector<double> wave_numbers;  // k of each species, or one for all [1/sigma]; default 7.25 over the largest sigma or diameter
+  std::optional<double> overlap_length;  // [sigma]; default 0.3 of the largest sigma or diameter
+  std::optional<std::uint64_t> records;  // of a trajectory, which goes on if these are more than the window's; default: those
+};
+
 struct DiffusionRunOptions {
   DiffusionWindow window;  // of hard spheres in units of sigma sqrt(m / k_B T)
+  RelaxationOptions relaxation;
   std::uint64_t trajectories = 5;
   std::uint64_t between = 100'000;                      // steps or collisions between trajectories
   std::uint64_t equilibration_collisions = 10'000'000;  // hard spheres
@@ -33,8 +43,14 @@ DiffusionRunOptions source_diffusion_options(std::size_t species, double packing
 // For soft models: a record every 10 steps of 0.001, t_max = 10, five trajectories of 100 time units.
 DiffusionRunOptions soft_diffusion_options();
 
+// The options with all defaults of a model. k = 7.25/sigma is the first peak of the structure factor of Kob and Andersen's A
+// particles, at which they compare relaxation (doi 10.1103/PhysRevE.52.4134); dense simple liquids have theirs nearby. Throws
+// Error(bad_input) for numbers out of range.
+RelaxationWindow relaxation_window(const AnyModel& model, const DiffusionRunOptions& options);
+
 struct DiffusionRunResult {
   DiffusionAccumulator diffusion;
+  RelaxationAccumulator relaxation;
   bool interrupted = false, equilibrated = true;
   double compressibility = 0.0;  // hard, over all trajectories, 3N - 3 convention
   double pressure = 0.0;         // soft, mean over the trajectories [epsilon/sigma^3]

@@ -2,6 +2,7 @@
 """tools/plot.py on small made-up run folders: the figures that it writes, and its refusals."""
 
 import json
+import math
 import unittest
 
 from plot_support import PlotTest
@@ -82,6 +83,26 @@ class Plot(PlotTest):
         self.assert_refuses("initial-0001-nodes.csv: no column excess")
         self.write_shortened(nodes=2)
         self.assert_refuses("initial-0001-nodes.csv: fewer than 3 nodes")
+
+    def write_relaxation(self, species, rows, error="0.01"):
+        (self.folder / "result.json").write_text(json.dumps({"model": "kob-andersen", "species": {
+            name: {"wave_number": 7.25, "tau_alpha": 1.5 if name == "Ni" else None} for name in species}}))
+        curves = ("squared_displacement", "intermediate_scattering", "alpha_2", "chi_4")
+        write_table(self.folder / "relaxation.csv", ",".join(["time"] + [f"{c}{e}_{name}" for name in species for c in curves for e in ("", "_error")]),
+                    [",".join([str(0.01 * 1.2**k)] + [f"{0.001 * 1.3**k},{error},{math.exp(-0.01 * 1.3**k)},{error},0.1,{error},{k},{error}"] * len(species))
+                     for k in range(rows)])
+
+    def test_relaxation_gives_a_figure(self):
+        for species, error in ((["Ni", "P"], "0.01"), (["Ar"], "nan")):  # a single trajectory has no errors
+            self.write_relaxation(species, 30, error)
+            self.assert_draws("relaxation.png")
+        self.write_relaxation(["Ar"], 1, "nan")
+        self.assert_draws("relaxation.png")
+
+    def test_damaged_relaxation_is_refused(self):
+        (self.folder / "result.json").write_text("{}")
+        write_table(self.folder / "relaxation.csv", "time,squared_displacement_error_Ar", ["0.1,0.2"])
+        self.assert_refuses("relaxation.csv: no column squared_displacement_Ar")
 
     def test_equal_ratios_can_be_drawn(self):
         self.write_run([path_summary(), path_summary()], rows=5)

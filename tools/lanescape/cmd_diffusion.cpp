@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "end_point_options.hpp"
 #include "plot.hpp"
+#include "relaxation_report.hpp"
 #include "run/diffusion_run.hpp"
 
 namespace lanescape::program {
@@ -16,6 +17,7 @@ struct DiffusionState {
   EndPointSetup setup;
   std::optional<double> interval;
   std::optional<std::uint64_t> lags, records, trajectories, between;
+  RelaxationSetup relaxation;
   bool plot = false;
 };
 
@@ -37,11 +39,11 @@ DiffusionRunOptions run_options(const DiffusionState& state, const AnyModel& mod
   options.window.records = state.records.value_or(origins + options.window.lags);
   options.trajectories = state.trajectories.value_or(options.trajectories);
   options.between = state.between.value_or(options.between);
+  options.relaxation = state.relaxation.resolve();
   options.check();
+  relaxation_window(model, options);  // refuses numbers out of range before anything is written
   return options;
 }
-
-Json error_of(const Estimate& estimate) { return estimate.error ? Json(*estimate.error) : Json(); }
 
 const char* to_string(DiffusionRegime regime) {
   switch (regime) {
@@ -73,6 +75,7 @@ Json to_json(const DiffusionRunResult& run, const AnyModel& model) {
       add("diffusion_long_time", d.long_time_diffusion(s));
       species["displacement_exponent"] = d.displacement_exponent(s);
       species["regime"] = to_string(d.regime(s, length_unit(model)));
+      add_relaxation(species, run.relaxation, s);
     }
   if (hard) {
     json["compressibility"] = run.compressibility;
@@ -84,6 +87,8 @@ Json to_json(const DiffusionRunResult& run, const AnyModel& model) {
   json["temperature_convention"] = "3N";
   json["trajectories"] = d.trajectories();
   json["longest_time"] = d.window().longest_time();
+  json["longest_relaxation_time"] = run.relaxation.time(run.relaxation.points() - 1);
+  json["overlap_length"] = run.relaxation.window().overlap_length;
   json["outcome"] = run.interrupted ? "interrupted" : run.equilibrated ? "done" : "temperature not held";
   json["seconds"] = run.seconds;
   return json;
@@ -134,7 +139,10 @@ Json run_diffusion_command(DiffusionState& state, Options& options, int& status)
   result["isa"] = to_string(isa);
   if (!hard) result["precision"] = to_string(state.system.resolve_precision());
   status = status_of_run(run.equilibrated, run.interrupted);
-  if (folder.exists()) write_curves(folder, run.diffusion, mixture_of(model));
+  if (folder.exists()) {
+    write_curves(folder, run.diffusion, mixture_of(model));
+    write_relaxation(folder, run.relaxation, mixture_of(model));
+  }
   write_result(folder, "diffusion", options.resolved(), result, status);
   if (state.plot) draw_plots(folder.path(), status);
   return result;
@@ -143,8 +151,8 @@ Json run_diffusion_command(DiffusionState& state, Options& options, int& status)
 }  // namespace
 
 Subcommand add_diffusion(CLI::App& app) {
-  const auto options =
-      std::make_shared<Options>(app, "diffusion", "Self-diffusion from velocity correlations and from displacements");
+  const auto options = std::make_shared<Options>(
+      app, "diffusion", "Self-diffusion from velocity correlations and displacements; scattering function, alpha_2 and chi_4");
   const auto state = std::make_shared<DiffusionState>();
   options->add("--interval", state->interval,
                "time between records [hard spheres: those published for this packing fraction; soft 0.01]");
@@ -152,6 +160,7 @@ Subcommand add_diffusion(CLI::App& app) {
   options->add("--records", state->records, "of a trajectory [source's; soft 11000]");
   options->add("--trajectories", state->trajectories, "[5; mixtures of hard spheres 10]");
   options->add("--between", state->between, "steps or collisions between trajectories [100000; mixtures of hard spheres 200000]");
+  state->relaxation.add_to(*options);
   options->add_flag("--plot", state->plot, "draw the curves (needs --out)").only_for({runs_with_a_folder});
   state->setup.add_to(*options);
   state->setup.add_tolerance_to(*options);

@@ -24,22 +24,6 @@ void InsertionSetup::add_to(Options& options) {
   options.add("--most-iterations", most_iterations, "of a trial [four times the running mean, at least 100]");
 }
 
-std::vector<std::string> list_of(const std::string& text, const char* option) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    if (end == begin) throw_bad_input(fmt::format("{}: '{}' is not allowed: values between commas are needed", option, text));
-    parts.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return parts;
-}
-
-double number_of(const std::string& text, const char* option) {
-  if (const std::optional<double> value = number_in(text)) return *value;
-  throw_bad_input(fmt::format("{}: '{}' is not allowed: a number is needed", option, text));
-}
-
 InsertionOptions InsertionSetup::resolve(std::uint64_t seed) const {
   InsertionOptions options;
   options.tolerance = tolerance;

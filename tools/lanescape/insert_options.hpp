@@ -28,8 +28,4 @@ struct InsertionSetup {
   std::optional<double> number(const std::vector<std::string_view>& words) const;
 };
 
-// The parts of a text between commas; the message for an empty one names the option.
-std::vector<std::string> list_of(const std::string& text, const char* option);
-double number_of(const std::string& text, const char* option);
-
 }  // namespace lanescape::program

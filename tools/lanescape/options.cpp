@@ -69,6 +69,22 @@ std::optional<double> number_in(const std::string& text) {
   return value;
 }
 
+std::vector<std::string> list_of(const std::string& text, const char* option) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    if (end == begin) throw_bad_input(fmt::format("{}: '{}' is not allowed: values between commas are needed", option, text));
+    parts.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+double number_of(const std::string& text, const char* option) {
+  if (const std::optional<double> value = number_in(text)) return *value;
+  throw_bad_input(fmt::format("{}: '{}' is not allowed: a number is needed", option, text));
+}
+
 // CLI11 gives hidden options no name.
 std::string name_of(const CLI::Option& option) {
   return option.get_lnames().empty() ? option.get_name() : "--" + option.get_lnames().front();

@@ -45,6 +45,10 @@ inline RunKinds joined(std::initializer_list<RunKinds> parts) {
 
 // The number that is the whole of a text; nothing if it is none. Numbers too small for a double are 0, too large ones infinite.
 std::optional<double> number_in(const std::string& text);
+// The same; Error(bad_input) where there is none, which names the option.
+double number_of(const std::string& text, const char* option);
+// The parts of a text between commas; the message for an empty one names the option.
+std::vector<std::string> list_of(const std::string& text, const char* option);
 
 // "--name", or FILE of a positional one. CLI11 gives hidden options no name.
 std::string name_of(const CLI::Option& option);

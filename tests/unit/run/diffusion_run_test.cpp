@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <vector>
 
 #include "configuration/lattice.hpp"
 #include "stopping_monitor.hpp"
@@ -24,6 +26,7 @@ struct Soft {
 
   Soft() {
     options.window = {0.002, 100, records};
+    options.relaxation.records = records / 2;
     options.trajectories = 2;
     options.between = 100;
     EndPointOptions& before = options.equilibration;
@@ -41,6 +44,7 @@ struct Hard {
 
   Hard() {
     options.window = {0.001, 100, records};
+    options.relaxation.records = records + 1500;  // trajectories go on for them
     options.trajectories = 2;
     options.between = 100;
     options.equilibration_collisions = 2000;
@@ -75,6 +79,11 @@ TYPED_TEST(DiffusionRunOf, InterruptedAndResumedEndsWithTheSameBits) {
     for (std::size_t s = 0; s < 2; ++s) {
       EXPECT_EQ(resumed.diffusion.vacf_diffusion(s).value, whole.diffusion.vacf_diffusion(s).value);
       EXPECT_EQ(resumed.diffusion.msd_diffusion(s).error, whole.diffusion.msd_diffusion(s).error);
+      for (std::size_t p = 0; p < whole.relaxation.points(); ++p) {
+        EXPECT_EQ(resumed.relaxation.intermediate_scattering(s, p).value, whole.relaxation.intermediate_scattering(s, p).value);
+        EXPECT_EQ(resumed.relaxation.non_gaussian(s, p).error, whole.relaxation.non_gaussian(s, p).error);
+        EXPECT_EQ(resumed.relaxation.susceptibility(s, p).value, whole.relaxation.susceptibility(s, p).value);
+      }
     }
     EXPECT_EQ(resumed.compressibility, whole.compressibility);
     EXPECT_EQ(resumed.pressure, whole.pressure);
@@ -98,6 +107,37 @@ TEST(DiffusionRun, RefusesWhatCannotBe) {
             }).rfind("particles 0 and 1 overlap", 0),
             0u);
   EXPECT_EQ(refused([](Soft& s) { s.model = liquid_vapour(); }).rfind("diffusion of model ucg is not there yet", 0), 0u);
+}
+
+TEST(DiffusionRun, RelaxationIsMeasuredAtTheFirstPeakOfTheStructureFactorUnlessGiven) {
+  const Soft soft;
+  const Hard hard;
+  EXPECT_EQ(relaxation_window(soft.model, soft.options).wave_numbers, (std::vector{7.25, 7.25}));
+  EXPECT_EQ(relaxation_window(soft.model, soft.options).overlap_length, 0.3);
+  const RelaxationWindow large = relaxation_window(hard.model, hard.options);  // diameters 1.4 and 1
+  EXPECT_EQ(large.wave_numbers, (std::vector{7.25 / 1.4, 7.25 / 1.4}));
+  EXPECT_EQ(large.overlap_length, 0.3 * 1.4);
+  EXPECT_EQ(large.records, records + 1500);
+  DiffusionRunOptions given = soft.options;
+  given.relaxation = {{5.0, 6.0}, 0.2, {}};
+  EXPECT_EQ(relaxation_window(soft.model, given).wave_numbers, (std::vector{5.0, 6.0}));
+  EXPECT_EQ(relaxation_window(soft.model, given).overlap_length, 0.2);
+  EXPECT_EQ(relaxation_window(soft.model, given).records, records);
+  given.relaxation.wave_numbers = {5.0, 6.0, 7.0};
+  EXPECT_EQ(refusal([&] { relaxation_window(soft.model, given); }),
+            "3 wave numbers are given for model kob-andersen: 1 is allowed, or 2, one for each species");
+}
+
+// Both measure displacements over the same trajectories, but from different origins.
+TYPED_TEST(DiffusionRunOf, DisplacementsAgreeWithThoseOfTheDiffusionWindow) {
+  const TypeParam system;
+  const DiffusionRunResult run_of = run(system, {});
+  for (std::size_t p = 0; p < run_of.relaxation.points(); ++p)
+    for (std::size_t k = 1; k < run_of.diffusion.points(); ++k)
+      if (std::fabs(run_of.relaxation.time(p) / run_of.diffusion.time(k) - 1.0) < 1e-9) {
+        const double expected = run_of.diffusion.squared_displacement(0, k).value;
+        EXPECT_NEAR(run_of.relaxation.squared_displacement(0, p).value, expected, 0.15 * expected);
+      }
 }
 
 // [G] table 4.3, and table 4.5 for two species.
