@@ -86,7 +86,7 @@ StateEvaluation nested(std::span<const double> positions, std::span<const int> s
 RadialFunction tapered_switch(double threshold, double width, double cutoff);
 
 /// A cascade of tanh: state 0 above the first threshold, else state 1 above the second, ..., else the last state. One threshold
-/// gives p_0 = (1 + tanh((rho - threshold) / width)) / 2, p_1 = 1 - p_0, as in [P].
+/// gives p_0 = (1 + tanh((rho - threshold) / width)) / 2, p_1 = 1 - p_0, the form of [UCG].
 ProbabilityFunction tanh_cascade(std::vector<double> thresholds, std::vector<double> widths);
 
 /// 4 epsilon ((sigma/r)^12 - (sigma/r)^6) minus its value at the cutoff.

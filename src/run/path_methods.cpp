@@ -22,9 +22,10 @@ std::unique_ptr<HardSphereLandscape> hard_landscape(const SearchSetup& setup) {
 
 std::unique_ptr<PathSearch> begin_contour(const SearchSetup& setup) {
   auto landscape = path_landscape(setup);
-  ContourStepper stepper(*landscape, setup.prepared.landscape_energy,
-                         {.direct_step = setup.options.step_length(setup.model),
-                          .correction = ContourStepper::Options{}.correction * length_unit(setup.model)});
+  ContourStepper::Options options{.direct_step = setup.options.step_length(setup.model)};
+  options.correction *= length_unit(setup.model);
+  options.max_corrections = setup.options.max_trials.value_or(options.max_corrections);
+  ContourStepper stepper(*landscape, setup.prepared.landscape_energy, options);
   return begin_search(setup, std::move(landscape), std::move(stepper));
 }
 
@@ -36,15 +37,20 @@ std::unique_ptr<PathSearch> begin_adaptive_contour(const SearchSetup& setup) {
 
 std::unique_ptr<PathSearch> begin_escape(const SearchSetup& setup) {
   auto landscape = path_landscape(setup);
-  EscapeStepper stepper(*landscape, setup.prepared.landscape_energy, {.direct_step = setup.options.step_length(setup.model)});
+  EscapeStepper::Options options{.direct_step = setup.options.step_length(setup.model)};
+  options.tolerance = setup.options.escape_tolerance.value_or(options.tolerance);
+  options.max_iterations = setup.options.max_trials.value_or(options.max_iterations);
+  EscapeStepper stepper(*landscape, setup.prepared.landscape_energy, options);
   return begin_search(setup, std::move(landscape), std::move(stepper));
 }
 
 std::unique_ptr<PathSearch> begin_avoidance(const SearchSetup& setup) {
   auto landscape = hard_landscape(setup);
-  AvoidanceStepper stepper(*landscape, {.direct_step = setup.options.step_length(setup.model),
-                                        .avoidance_step = setup.options.avoidance_step_length(setup.model),
-                                        .potential = setup.options.fictitious});
+  AvoidanceStepper::Options options{.direct_step = setup.options.step_length(setup.model),
+                                    .avoidance_step = setup.options.avoidance_step_length(setup.model),
+                                    .potential = setup.options.fictitious};
+  options.max_trials = setup.options.max_trials.value_or(options.max_trials);
+  AvoidanceStepper stepper(*landscape, options);
   return begin_search(setup, std::move(landscape), std::move(stepper));
 }
 
@@ -60,7 +66,10 @@ std::unique_ptr<PathSearch> begin_slide(const SearchSetup& setup) {
 
 std::unique_ptr<PathSearch> begin_away(const SearchSetup& setup) {
   auto landscape = hard_landscape(setup);
-  AwayStepper stepper(setup.pair.start.box, setup.prepared.layout, setup.pair.start.radii, *landscape, setup.goal(), {});
+  AwayStepper::Options options;
+  options.max_moves = setup.options.max_trials.value_or(options.max_moves);
+  options.max_depth = setup.options.max_depth.value_or(options.max_depth);
+  AwayStepper stepper(setup.pair.start.box, setup.prepared.layout, setup.pair.start.radii, *landscape, setup.goal(), options);
   return begin_search(setup, std::move(landscape), std::move(stepper));
 }
 

@@ -31,6 +31,11 @@ struct PathRunOptions {
   std::optional<double> direct_step;     // delta_di, in 3N space; else the method's own in the model's unit of length [sigma]
   std::optional<double> avoidance_step;  // delta_ca, of each particle that moves; else 1e-4 of that unit [sigma]
   kernels::ContactPotential fictitious = kernels::ContactPotential::harmonic;
+  std::optional<double> escape_tolerance;  // dV of the escape method; else 1e-4 [epsilon]
+  // Of one detour, after which the path is stalled: corrections (contour), iterations (escape), trials (avoidance), moves of single
+  // spheres (away); else the stepper's own.
+  std::optional<std::uint64_t> max_trials;
+  std::optional<std::uint64_t> max_depth;  // of the away method: spheres pushed one by the other; else 2000
   std::optional<double> landscape_energy;  // E_L; else the higher of the two ends [epsilon]
   bool reverse = false;                    // search from the far end too and keep the shorter path
   FinderOptions finder;

@@ -14,6 +14,8 @@
 namespace lanescape {
 namespace {
 
+constexpr std::uint64_t most_patience = 1'000'000'000'000'000;  // times any factor of a method it stays a count
+
 // A chunk takes about 3 ms, of hard spheres 1 ms.
 std::uint64_t steps_per_chunk(std::size_t particles) { return std::clamp<std::uint64_t>(30'000 / (particles + 1), 1, 1000); }
 
@@ -52,6 +54,11 @@ void PathRunOptions::check(const AnyModel& model) const {
   if (has_step_length()) check_positive("step", step_length(model), 1.0 * unit);
   if (stepping == Stepping::adaptive && direct_step) throw_bad_input("adaptive steps have no given length: without a step only");
   check_positive("avoidance step", avoidance_step_length(model), 0.1 * unit);
+  if (escape_tolerance) check_positive("escape tolerance", *escape_tolerance);
+  if (max_trials) check_at_least_one("limit of trials", *max_trials);
+  if (max_depth) check_at_least_one("depth of the away method", *max_depth);
+  if (finder.patience == 0 || finder.patience > most_patience)
+    throw_bad_input(fmt::format("patience {} is not allowed: from 1 to {}", finder.patience, most_patience));
   if (landscape_energy && method->is_hard) throw_bad_input("hard spheres have no landscape energy: without it only");
   if (landscape_energy && !std::isfinite(*landscape_energy))
     throw_bad_input(fmt::format("landscape energy {} is not allowed: it must be finite", *landscape_energy));

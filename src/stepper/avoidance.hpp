@@ -28,8 +28,8 @@ class AvoidanceStepper {
     kernels::ContactPotential potential = kernels::ContactPotential::harmonic;
     std::uint64_t max_trials = 10'000;  // of one avoidance step
   };
-  // Overlaps are counted in every eighth avoidance step: neighbouring steps hardly differ, and counting takes half as long as a
-  // step.
+  // Overlaps and moved particles are counted in every eighth avoidance step: neighbouring steps hardly differ, and counting takes
+  // half as long as a step.
   static constexpr std::uint64_t statistics_interval = 8;
 
   AvoidanceStepper(HardLandscape& landscape, const Options& options);

@@ -98,6 +98,16 @@ class HardSpheres(InterruptionTest):
         self.assertEqual(result["paths"][0]["outcome"], "interrupted")
         self.assert_resumes_to(out, whole, "path")
 
+    def test_limits_of_avoidance_and_away_steps_stall_a_path_and_are_named(self):
+        pair = self.ends(self.folder / "ends")["pairs"][0]["file"]
+        for given, words in ((("--method", "avoidance", "--max-trials", "1"), "after 1 trials of 0.0001"),
+                             (("--method", "away", "--max-depth", "1"), "over 1 in a row"),
+                             (("--method", "away", "--max-trials", "1"), "over 1 moves of spheres")):
+            [path] = self.done("path", *SPHERES[:2], "--pair", pair, *given, status=1)["paths"]
+            self.assertEqual(path["outcome"], "stalled")
+            self.assertIn(words, path["reason"])
+        self.refused_cleanly("path", *SPHERES[:2], "--pair", pair, "--method", "away", "--max-depth", "0", says="depth of the away method")
+
     def test_an_interrupted_path_resumes_to_the_same_bits(self):
         ends = self.folder / "ends"
         pair = self.done("endpoints", *SPHERES, "--packing-fraction", "0.55",

@@ -54,6 +54,37 @@ class Paths(ProgramTest):
         self.assertAlmostEqual(adaptive["length"], faithful["length"], delta=0.01 * faithful["length"])
         self.assertLessEqual(adaptive["largest_violation"], 1e-3)
 
+    def test_escape_steps_end_within_the_given_tolerance(self):
+        [pair] = self.make_pairs("ends")
+        highest = {}
+        for tolerance in (None, 1e-4, 1e-2):
+            given = () if tolerance is None else ("--escape-tolerance", tolerance)
+            [path] = self.done("path", *ARGON, "--pair", pair, "--method", "escape", *given)["paths"]
+            highest[tolerance] = path["largest_violation"]
+        self.assertEqual(highest[None], highest[1e-4])
+        self.assertLessEqual(highest[1e-4], 1e-4 * (1 + 1e-9))
+        self.assertGreater(highest[1e-2], 1e-3)
+        self.assertLessEqual(highest[1e-2], 1e-2 * (1 + 1e-9))
+
+    def stalled(self, *arguments):
+        [path] = self.done("path", *arguments, status=1)["paths"]
+        self.assertEqual(path["outcome"], "stalled")
+        return path["reason"]
+
+    def test_limits_of_trials_and_patience_stall_a_path_and_are_named(self):
+        [pair] = self.make_pairs("ends")
+        path = (*ARGON, "--pair", pair)
+        self.assertIn("after 1 iterations of the descent", self.stalled(*path, "--method", "escape", "--escape-tolerance", "1e-9", "--max-trials", "1"))
+        blocked = self.file("blocked.xyz", frame("Ar 1 1 1", "Ar 2.2 1 1") + frame("Ar 2.2 1 1", "Ar 1 1 1"))  # escape steps go back for ever
+        for patience in ("50", "200"):
+            self.assertIn(f"no progress over {patience} steps",
+                          self.stalled(*ARGON, "--pair", blocked, "--method", "escape", "--patience", patience))
+        for option, value, words in (("--max-trials", "0", "limit of trials must be at least 1"), ("--patience", "0", "patience 0"),
+                                     ("--patience", "10000000000000000", "from 1 to")):
+            self.refused_cleanly("path", *path, option, value, says=words)
+        for value in ("0", "-1e-4", "nan", "inf"):
+            self.refused_cleanly("path", *path, "--method", "escape", "--escape-tolerance", value, says="escape tolerance")
+
     def test_adaptive_steps_are_refused_where_there_are_none(self):
         [pair] = self.make_pairs("ends")
         self.refused("path", *ARGON, "--pair", pair, "--method", "escape", "--adaptive",

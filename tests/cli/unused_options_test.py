@@ -66,6 +66,9 @@ class UnusedOptions(ProgramTest):
 
     def test_of_paths_by_another_method(self):
         self.all_refused(("path", *ARGON, *TINY), ("--avoidance-step=1e-4", "--fictitious=linear"), "with method contour", "avoidance")
+        self.all_refused(("path", *ARGON, *TINY), ("--escape-tolerance=1e-4",), "with method contour", "method escape")
+        self.all_refused(("path", *MIXTURE), ("--max-depth=100",), "with method avoidance", "method away")
+        self.all_refused(("path", *MIXTURE, "--adaptive"), ("--max-trials=100",), "with method avoidance and --adaptive", "faithful steps")
         self.all_refused(("path", *MIXTURE, "--method", "away"), ("--step=0.1", "--fictitious=linear"), "with method away", "avoidance")
         self.all_refused(("path", *ARGON, *TINY, "--adaptive"), ("--step=0.1", "--fictitious=linear"), "with method contour and --adaptive",
                          "faithful")

@@ -25,8 +25,9 @@ class PathOptions {
  private:
   std::optional<std::string> method_, fictitious_;
   bool adaptive_ = false;
-  std::optional<double> step_, avoidance_step_, landscape_energy_;
-  std::uint64_t max_steps_ = FinderOptions{}.max_steps;
+  std::optional<double> step_, avoidance_step_, landscape_energy_, escape_tolerance_;
+  std::optional<std::uint64_t> max_trials_, max_depth_;
+  std::uint64_t max_steps_ = FinderOptions{}.max_steps, patience_ = FinderOptions{}.patience;
 };
 
 }  // namespace lanescape::program

@@ -38,14 +38,19 @@ def cell(values, form):
     return f"{mean:{form}}" if math.isnan(error) else f"{mean:{form}} ± {error:{form}}"
 
 
+def fitted(phi):
+    """Whether [G]'s fits are for this packing fraction."""
+    return 0.53 <= phi <= 0.57
+
+
 def source_ratio(phi):
     """Mode-coupling fit of [G]'s figure 4.20, 0.53 to 0.57."""
-    return math.exp(1.450393 * math.log(0.59 - phi) - 1.404044) if phi >= 0.53 else None
+    return math.exp(1.450393 * math.log(0.59 - phi) - 1.404044) if fitted(phi) else None
 
 
 def source_diffusion_big(phi):
-    """Vogel-Fulcher-Tammann fit of [G]'s figure 4.21, 0.50 and above."""
-    return math.exp(-0.159643 / (0.6122 - phi) - 2.836295) if phi >= 0.50 else None
+    """Vogel-Fulcher-Tammann fit of [G]'s figure 4.23, 0.53 to 0.57."""
+    return math.exp(-0.159643 / (0.6122 - phi) - 2.836295) if fitted(phi) else None
 
 
 def bmcsl(phi):

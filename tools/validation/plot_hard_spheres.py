@@ -37,7 +37,7 @@ def draw(axes, folder, kind):
         scale = statistics.mean(points[phi][0] / ratios[phi] for phi in common)
         axes.plot(list(ratios), [scale * r for r in ratios.values()], "--", color=colour, label=rf"{scale:.3g} $(\Delta R/g)^2$")
     if kind == "binary":
-        phis = [0.01 * k for k in range(50, 58)]
+        phis = [k / 100 for k in range(53, 58)]
         axes.plot(phis, [source_diffusion_big(phi) for phi in phis], ":", color=GREY, label="source's fit, large")
     else:
         axes.plot([float(phi) for phi in INFINITE], list(INFINITE.values()), "s", color=GREEN, mfc="none", label="infinite system, published")

@@ -26,7 +26,7 @@ VARIANTS = {
     "all-108": Variant("contour, all images, N = 108", 108, "all", "contour", 1e-3, 10),
     "escape-108": Variant("escape, minimum image, N = 108", 108, "minimum", "escape", 1e-3, 10),
     "coarse-108": Variant("contour, step 0.01", 108, "minimum", "contour", 1e-2, 10),
-    "fine-108": Variant("contour, step 0.0001", 108, "minimum", "contour", 1e-4, 5),
+    "fine-108": Variant("contour, step 0.0001", 108, "minimum", "contour", 1e-4, 2),
     "all-256": Variant("contour, all images, N = 256", 256, "all", "contour", 1e-3, 5),
 }
 # Seconds per path in [C]'s table 1 (contour, escape).

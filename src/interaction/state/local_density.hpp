@@ -49,8 +49,8 @@ class LocalDensity final : public OrderParameter {
 };
 
 // A cascade of tanh for each species: state 0 above the first threshold of the order parameter, else state 1 above the second, ...,
-// else the last; with one threshold p_0 = (1 + tanh((x - threshold) / width)) / 2, the default of [P]. In a species with fewer
-// states than others the missing ones have probability zero.
+// else the last; with one threshold p_0 = (1 + tanh((x - threshold) / width)) / 2, the default form, of [UCG]. In a species with
+// fewer states than others the missing ones have probability zero.
 class TanhCascade final : public StateResponse {
  public:
   struct Step {
