@@ -66,7 +66,7 @@ struct InsertionOptions {
   InsertionMethod method = InsertionMethod::usher;
   // ds_max, or the step ds of descent [sigma]; default: 0.1 rho^(-3/2), with both in ProbeField::length_unit()
   std::optional<double> largest_step;
-  std::optional<double> traverse_step;  // ds' of descent: step after a line minimisation [sigma]; default: 0.6 length units
+  std::optional<double> traverse_step;  // ds' of descent: step after a line minimisation [sigma]; default: 1.5 length units
   double overlap_energy = 1e4;          // U_ov: above it a step ends at the contact distance [epsilon]
   double contact = 0.9;                 // r_sigma, the contact distance [sigma of the largest pair]
   double clear_energy = 60.0;           // screened: limit of a single particle's r^-12 energy at a start [epsilon]

@@ -36,7 +36,7 @@ InsertionSearch::InsertionSearch(const ProbeField& fluid, const InsertionOptions
       most_iterations_(most_iterations),
       allowed_(allowed),
       largest_step_(options.largest_step.value_or(default_largest_step(fluid))),
-      traverse_step_(options.traverse_step.value_or(0.6 * fluid.length_unit())),
+      traverse_step_(options.traverse_step.value_or(1.5 * fluid.length_unit())),
       clearances_(fluid.clearances(options.clear_energy)),
       region_(options.region.value_or(Region{{}, fluid.box().length})),
       has_walls_(options.region ? std::array{true, true, true}

@@ -44,14 +44,16 @@ class Cost(unittest.TestCase):
                 self.assertLess(abs(row["error"]), 0.2)
                 self.assertTrue(0.25 < row["distance"] < 0.6, row["distance"])
 
-    def test_the_reference_scheme_takes_more_at_high_density_and_screened_starts_take_less(self):
+    def test_the_tuned_reference_scheme_takes_somewhat_more_at_high_density_and_screened_starts_take_less(self):
         usher, screened, descent = (self.rows(method) for method in ("usher", "screened", "descent"))
         for state in usher:
             with self.subTest(state):
                 self.assertLess(screened[state]["evaluations"], 0.7 * usher[state]["evaluations"])
                 if state[0] == 0.8:
                     self.assertLess(screened[state]["evaluations"], 0.25 * usher[state]["evaluations"])
-                    self.assertGreater(descent[state]["evaluations"], 2 * usher[state]["evaluations"])
+                    # About 1.3 to 1.5 times as many; its step after a line minimisation is mistuned where it takes more than twice as many.
+                    self.assertGreater(descent[state]["evaluations"], 1.1 * usher[state]["evaluations"])
+                    self.assertLess(descent[state]["evaluations"], 2 * usher[state]["evaluations"])
 
     def test_the_fluids_are_those_of_the_equation_of_state(self):
         thol = equation_of_state.load("thol")

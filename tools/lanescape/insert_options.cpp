@@ -15,7 +15,7 @@ void InsertionSetup::add_to(Options& options) {
   options.add("--method", method,
               "usher, usher-indirect, usher-near, screened, or descent, the reference scheme that USHER was published with");
   options.add("--largest-step", largest_step, "[0.1 density^(-3/2)]");
-  options.add("--traverse-step", traverse_step, "of descent, after a line minimisation [0.6]");
+  options.add("--traverse-step", traverse_step, "of descent, after a line minimisation [1.5]");
   options.add("--clear-energy", clear_energy, "of screened: no particle alone repels a start by more");
   options.add("--region", region, "x0,x1,y0,y1,z0,z1: a part of the box to search in, also across its faces [all of it]");
   options.add("--wall", wall, "of the region: reflect, or well: a force back");
