@@ -33,8 +33,8 @@ SEES_KERNEL_TABLE = {"dispatch", "neighbour", "interaction", "dynamics", "verifi
 SEEN_OF_KERNELS = ("views/", "pair_forms.hpp")
 SEES_REFERENCE = {"verification"}
 # The program starts runs, reads files, averages results and verifies; dynamics, steppers and paths reach it through run/ only, and
-# landscapes but for the one of an engine.
-PROGRAM_STAGES = {"core", "configuration", "io", "dispatch", "insertion", "interaction", "landscape", "observables", "run",
+# landscapes but for the one of an engine; of flow it needs the options and the outsides.
+PROGRAM_STAGES = {"core", "configuration", "io", "dispatch", "flow", "insertion", "interaction", "landscape", "observables", "run",
                   "verification"}
 
 KERNEL_STANDARD_HEADERS = {"cstddef", "cstdint", "cmath", "type_traits", "utility"}

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Draw the figures of a run's folder: tools/plot.py DIR
 
-Reads the files that `lanescape path`, `shorten`, `endpoints`, `diffusion`, `insert` and `slab` write into DIR:
+Reads the files that `lanescape path`, `shorten`, `endpoints`, `diffusion`, `insert`, `flow` and `slab` write into DIR:
   result.json               outcome, length, landscape energy, ... of each path (required)
   run.toml                  the target temperature; for insertion also the model and the number of particles (optional)
   path-0001-trace.csv ...   one for each path in result.json
@@ -14,6 +14,8 @@ Reads the files that `lanescape path`, `shorten`, `endpoints`, `diffusion`, `ins
   relaxation.csv            scattering function, alpha_2, chi_4 and displacements at lags spaced by factors
   densification.csv         growth at constant energy
   profiles.csv              density and states of a slab
+  flow.csv, balance.csv, insertions.csv            a flow through a slab with open faces
+  continuum.csv, alone.csv  the fluid on both sides of it, and the solver without the slab
   scan.csv, holes.csv, errors.csv     cost of insertion, sizes of holes, convergence of errors
 
 Writes into DIR:
@@ -30,6 +32,9 @@ Writes into DIR:
   densification.png   energy, pressure, temperature and excess energy against density; for the Lennard-Jones model with long-range
                       corrections also three equations of state at constant energy, from the density and temperature of the first row
   profiles.png        density and mean state probabilities along a slab
+  flow.png, flow-profiles.png, flow-balance.png, flow-insertions.png     temperature, density and velocity against time; means along the
+                      slab; balances of particles, energy and momentum; evaluations per insertion against density
+  wave.png            a wave that passes from the fluid outside through the particles
   insertion-cost.png       evaluations by method and tolerance against density, and against temperature at densities with several
                            temperatures (at most the three highest such densities)
   insertion-distance.png   mean and largest distance between the start of a search and its result, against density
@@ -48,6 +53,7 @@ from pathlib import Path
 
 from plot_diffusion import draw_diffusion, read_diffusion
 from plot_equilibration import draw_equilibration, read_equilibration
+from plot_flow import draw_flow, read_flow
 from plot_insertion import draw_insertion, read_insertion
 from plot_path import draw_path, draw_paths, read_paths
 from plot_path_statistics import draw_statistics, read_histograms, read_particle_ratios
@@ -70,10 +76,11 @@ def draw_folder(folder):
     histograms, ratios = read_histograms(folder, paths), read_particle_ratios(folder, paths)
     equilibration, diffusion, relaxation = read_equilibration(folder), read_diffusion(folder), read_relaxation(folder)
     insertion, slab = read_insertion(folder), read_slab(folder)
+    flow = read_flow(folder)
     trials, shortened = read_trials(folder), read_shortened(folder, result)
-    if not paths and not insertion and all(table is None for table in (equilibration, diffusion, relaxation, slab, trials, shortened)):
+    if not paths and not insertion and all(table is None for table in (equilibration, diffusion, flow, relaxation, slab, trials, shortened)):
         raise Unusable(
-            f"{folder}: neither paths in result.json nor a table of a shortening, end points, diffusion, insertion or a slab: nothing to draw")
+            f"{folder}: neither paths in result.json nor a table of a shortening, end points, diffusion, insertion, a flow or a slab: nothing to draw")
     made = {**result, "model": result.get("model") or run.get("model", "")}
     temperature = target_temperature(run)
     for path in paths:
@@ -89,6 +96,8 @@ def draw_folder(folder):
         draw_shortened(folder, shortened, made, temperature)
     if trials is not None:
         draw_shortening(folder, trials, result)
+    if flow is not None:
+        draw_flow(folder, flow, run)
     if slab is not None:
         draw_slab(folder, slab)
     if equilibration is not None:

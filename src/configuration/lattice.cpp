@@ -44,14 +44,21 @@ void check_particles(std::size_t particles) {
     throw_bad_input(fmt::format("{} particles are not allowed: from 1 to {}", particles, max_particles));
 }
 
-// The occupied sites of n^3 cubic cells of four sites each.
+// The occupied sites of cells of four sites each, along each edge of a box so many that they are nearly cubic.
 struct Lattice {
-  std::size_t cells = 1;           // n, along each edge
-  std::vector<std::size_t> sites;  // of each particle
+  std::array<std::size_t, 3> cells{1, 1, 1};  // along each edge
+  std::vector<std::size_t> sites;             // of each particle
 
-  Lattice(std::size_t particles, std::uint64_t seed) {
-    while (4 * cells * cells * cells < particles) ++cells;
-    sites.resize(4 * cells * cells * cells);
+  // In a cube, or in a box of this shape.
+  Lattice(std::size_t particles, std::uint64_t seed, const Point& edges = {1.0, 1.0, 1.0}) {
+    while (4 * cells[0] * cells[1] * cells[2] < particles) {
+      // The longest cell is cut.
+      const auto longer = [&](std::size_t a, std::size_t b) {
+        return edges[a] / static_cast<double>(cells[a]) < edges[b] / static_cast<double>(cells[b]);
+      };
+      ++cells[*std::max_element(axes.begin(), axes.end(), longer)];
+    }
+    sites.resize(4 * cells[0] * cells[1] * cells[2]);
     std::iota(sites.begin(), sites.end(), std::size_t{0});
     if (sites.size() == particles) return;
     shuffle(sites, CounterRandom(seed, RandomStream::sites));
@@ -63,16 +70,21 @@ struct Lattice {
     constexpr std::array<std::array<std::size_t, 3>, 4> basis = {{{0, 0, 0}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}}};
     const std::size_t corner = site / 4;
     const auto& b = basis[site % 4];
-    return {2 * (corner % cells) + b[0], 2 * (corner / cells % cells) + b[1], 2 * (corner / (cells * cells)) + b[2]};
+    return {2 * (corner % cells[0]) + b[0], 2 * (corner / cells[0] % cells[1]) + b[1], 2 * (corner / (cells[0] * cells[1])) + b[2]};
   }
-  std::vector<double> positions(double length) const {
-    const double cell = length / static_cast<double>(cells);
+  std::vector<double> positions(const Point& edges) const {
     std::vector<double> result;
     result.reserve(3 * sites.size());
-    for (const std::size_t site : sites)
-      for (const std::size_t h : half_edges(site)) result.push_back(cell * (0.5 * static_cast<double>(h)));
+    for (const std::size_t site : sites) {
+      const std::array<std::size_t, 3> half = half_edges(site);
+      for (const std::size_t axis : axes)
+        result.push_back(edges[axis] / static_cast<double>(cells[axis]) * (0.5 * static_cast<double>(half[axis])));
+    }
     return result;
   }
+
+ private:
+  static constexpr std::array<std::size_t, 3> axes{0, 1, 2};
 };
 
 // Spheres on lattice sites; the edge of the box is not yet fixed.
@@ -126,7 +138,7 @@ std::vector<Offset> offsets_within(std::size_t cells, double reach) {
 // The least r_ij / s_ij over pairs of spheres and their images, in half edges per sigma. Each pair is visited from its larger
 // sphere, so that only spheres large enough to reach a distant site visit it: O(N) for similar sizes.
 double least_distance_ratio(const Packing& packing) {
-  const std::size_t period = 2 * packing.lattice.cells, n = packing.radii.size();
+  const std::size_t period = 2 * packing.lattice.cells[0], n = packing.radii.size();
   const auto place = [&](const std::array<std::size_t, 3>& at) { return (at[2] * period + at[1]) * period + at[0]; };
   std::vector<double> radius_at(period * period * period, 0.0);  // 0: empty
   std::vector<std::size_t> by_size(n);
@@ -138,7 +150,7 @@ double least_distance_ratio(const Packing& packing) {
   const double largest = packing.radii[by_size.front()];
   double least = static_cast<double>(period) / (2.0 * largest);
   for (double reach = 2.0;; reach *= 2.0) {
-    for (const Offset& offset : offsets_within(packing.lattice.cells, reach)) {
+    for (const Offset& offset : offsets_within(packing.lattice.cells[0], reach)) {
       if (offset.length >= least * 2.0 * largest) return least;
       for (const std::size_t i : by_size) {
         const double r = packing.radii[i];
@@ -155,17 +167,21 @@ double least_distance_ratio(const Packing& packing) {
 
 // The packing fraction at which the closest two spheres touch.
 double largest_packing_fraction(const Packing& packing) {
-  const double edge = 2.0 * static_cast<double>(packing.lattice.cells) / least_distance_ratio(packing);
+  const double edge = 2.0 * static_cast<double>(packing.lattice.cells[0]) / least_distance_ratio(packing);
   return std::min(max_packing_fraction, packing.volume / (edge * edge * edge) * (1.0 - rounding_margin));
+}
+
+void check_density(double density, double length_unit) {
+  if (const double most = max_density * std::pow(length_unit, -3); !(density > 0.0 && density <= most))
+    throw_bad_input(fmt::format("density {} is not allowed: above 0 and at most {}", density, most));
 }
 
 Configuration fcc_start(const Mixture& model, std::size_t particles, double density, std::uint64_t seed, double length_unit) {
   check_particles(particles);
-  if (const double most = max_density * std::pow(length_unit, -3); !(density > 0.0 && density <= most))
-    throw_bad_input(fmt::format("density {} is not allowed: above 0 and at most {}", density, most));
+  check_density(density, length_unit);
   const double length = std::cbrt(static_cast<double>(particles) / density);
   Configuration start{Box{{length, length, length}}, species_in_proportion(model, particles),
-                      Lattice(particles, seed).positions(length)};
+                      Lattice(particles, seed).positions({length, length, length})};
   shuffle(start.species, CounterRandom(seed, RandomStream::species));
   return start;
 }
@@ -189,6 +205,16 @@ Configuration fcc_start(const PairModel& model, std::size_t particles, double de
   return start;
 }
 
+Configuration fcc_in_box(const PairModel& model, const Box& box, double density, std::uint64_t seed) {
+  check_density(density, model.length_unit());
+  const double particles = std::round(density * box.volume());
+  check_particles(particles <= static_cast<double>(max_particles) ? static_cast<std::size_t>(particles) : max_particles + 1);
+  const auto count = static_cast<std::size_t>(particles);
+  Configuration start{box, species_in_proportion(model, count), Lattice(count, seed, box.length).positions(box.length)};
+  shuffle(start.species, CounterRandom(seed, RandomStream::species));
+  return start;
+}
+
 Configuration hard_sphere_start(const HardSphereModel& model, std::size_t particles, double packing_fraction,
                                 Arrangement arrangement, std::uint64_t seed) {
   check_particles(particles);
@@ -202,7 +228,8 @@ Configuration hard_sphere_start(const HardSphereModel& model, std::size_t partic
                                 packing_fraction,
                                 1e-6 * std::floor(1e6 * largest)));  // rounded down: the value in the message is allowed
   const double length = std::cbrt(packing.volume / packing_fraction);
-  return {Box{{length, length, length}}, std::move(packing.species), packing.lattice.positions(length), std::move(packing.radii)};
+  return {Box{{length, length, length}}, std::move(packing.species), packing.lattice.positions({length, length, length}),
+          std::move(packing.radii)};
 }
 
 double largest_lattice_packing_fraction(const HardSphereModel& model, std::size_t particles, Arrangement arrangement,

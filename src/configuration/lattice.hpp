@@ -20,6 +20,10 @@ Configuration fcc_start(const StateMixtureModel& model, std::size_t particles, d
 // diameter^-3, with mean 1 and the ratio 0.45 of smallest to largest, in random order. doi 10.1103/PhysRevX.7.021039
 Configuration fcc_start(const PairModel& model, std::size_t particles, double density, std::uint64_t seed);
 
+// As many particles without diameters of their own as give this density in a box of any shape, on a lattice with cells as nearly
+// cubic as fit into it; the rest as fcc_start().
+Configuration fcc_in_box(const PairModel& model, const Box& box, double density, std::uint64_t seed);
+
 // How species are placed on a lattice: at random, or each in its own part of the box along x, the largest spheres first.
 enum class Arrangement { random, halves };
 

@@ -155,6 +155,22 @@ FaceDemand ContinuumOutside::demand(std::size_t face, const FaceReport& report) 
   return wanted;
 }
 
+std::vector<OutsideCell> cells_of(const CompressibleSolver& solver) {
+  std::vector<OutsideCell> cells;
+  for (std::size_t k = 0; k < solver.flow().size(); ++k) {
+    const FlowState& state = solver.flow()[k];
+    cells.push_back({solver.grid().centre(k), state.fluid.density, state.velocity[0], state.fluid.temperature});
+  }
+  return cells;
+}
+
+std::vector<OutsideCell> ContinuumOutside::cells() const {
+  std::vector<OutsideCell> cells = cells_of(left_);
+  const std::vector<OutsideCell> right = cells_of(right_);
+  cells.insert(cells.end(), right.begin(), right.end());
+  return cells;
+}
+
 void ContinuumOutside::exchange(Archive& archive) {
   archive.enter("left");
   left_.exchange(archive);

@@ -44,6 +44,7 @@ struct ContinuumOptions {
 // The same equations in both regions and in the slab's place, in cells of about the same width: what a coupled run is compared
 // with.
 CompressibleSolver solver_alone(const ContinuumOptions& options);
+std::vector<OutsideCell> cells_of(const CompressibleSolver& solver);
 
 // Fluids on both sides of the slab that exchange fluxes with it, in the manner of [DC]. A region receives exactly what has passed
 // its plane, so fluids and particles together conserve mass, momentum and energy to rounding. What shall pass next is the flux that
@@ -61,6 +62,7 @@ class ContinuumOutside final : public Outside {
   // Error(bad_input) for a time above longest_interval().
   Demands begin(const Reports& initial) override;
   Demands advance(const Reports& passed, double time) override;
+  std::vector<OutsideCell> cells() const override;
   void exchange(Archive& archive) override;
 
   const CompressibleSolver& left() const { return left_; }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "core/archive.hpp"
 #include "core/point.hpp"
@@ -32,7 +33,26 @@ struct FaceReport {
   // Means over the interval in the slice next to the buffer.
   double density = 0.0, temperature = 0.0, energy_per_particle = 0.0;  // energy: total, that of the mean motion included
   Point velocity{};
+  // Particles in the buffer, over those that it would hold at this density.
+  double filling = 0.0;
 };
+
+// What an outside may show of itself.
+struct OutsideCell {
+  double x = 0.0;  // middle [sigma]
+  double density = 0.0, velocity = 0.0, temperature = 0.0;
+};
+
+// Of a buffer at rest.
+inline constexpr double usual_filling = 0.7;
+
+// By how much an outside should raise the pressure of a face, relatively, so that its buffer neither empties nor overflows. Nothing
+// else holds the number of particles in it: where those that leave count as part of the pressure, a fuller buffer loses more of
+// them and bears less force. In the mean it is zero.
+inline double filling_correction(double filling) {
+  constexpr double stiffness = 0.5;
+  return stiffness * (filling - usual_filling);
+}
 
 // A host code implements this, or takes one of the two in this folder.
 class Outside {
@@ -45,6 +65,8 @@ class Outside {
   virtual Demands begin(const Reports& initial) = 0;
   // Takes what passed in an interval that lasted `time` and gives the demands for the next one of the same length.
   virtual Demands advance(const Reports& passed, double time) = 0;
+  // Cells beyond the faces, in the order of x, for a record; none by default.
+  virtual std::vector<OutsideCell> cells() const { return {}; }
   // The whole state.
   virtual void exchange(Archive& archive) = 0;
 };

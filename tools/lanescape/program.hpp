@@ -90,6 +90,7 @@ struct Subcommand {
   std::function<Json(int& status)> run;
 };
 
+Subcommand add_flow(CLI::App& app);
 Subcommand add_info(CLI::App& app);
 Subcommand add_energy(CLI::App& app);
 Subcommand add_overlap(CLI::App& app);

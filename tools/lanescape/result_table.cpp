@@ -4,6 +4,16 @@
 
 namespace lanescape::program {
 
+namespace {
+
+// JSON has no number for what is not defined, tables have.
+std::string text_of(const Json& value) {
+  if (value.is_null()) return "nan";
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+}  // namespace
+
 Json to_json(const ResultTable& table) {
   Json json = Json::array();
   for (const ResultRow& row : table) {
@@ -23,7 +33,7 @@ void write_table(OutputFolder& folder, const std::string& name, const ResultTabl
     for (const ResultRow& row : table) {
       comma = "";
       for (const auto& [column, value] : row)
-        out << std::exchange(comma, ",") << (value.is_string() ? value.get<std::string>() : value.dump());
+        out << std::exchange(comma, ",") << text_of(value);
       out << '\n';
     }
   });
