@@ -5,14 +5,12 @@
 #include "core/error.hpp"
 #include "core/overloaded.hpp"
 #include "landscape/pair_landscape.hpp"
-#include "landscape/state_mixture_landscape.hpp"
 
 namespace lanescape {
 
-namespace {
-
-std::unique_ptr<SoftLandscape> make(const StateMixtureModel& model, const Box& box, const ParticleLayout& layout, Isa isa,
-                                    const PairSearchOptions& options) {
+std::unique_ptr<StateMixtureLandscape> make_state_landscape(const StateMixtureModel& model, const Box& box,
+                                                            const ParticleLayout& layout, Isa isa,
+                                                            const PairSearchOptions& options) {
   if (options.precision == Precision::mixed)
     throw_bad_input(fmt::format("mixed precision is not allowed with model {}: Lennard-Jones mixtures have it", model.name));
   check_cutoff(model, box);
@@ -23,19 +21,17 @@ std::unique_ptr<SoftLandscape> make(const StateMixtureModel& model, const Box& b
   return std::make_unique<StateMixtureLandscape>(model, box, layout, isa, state_options);
 }
 
-}  // namespace
-
 std::unique_ptr<SoftLandscape> make_landscape(const AnyModel& model, const Box& box, const ParticleLayout& layout, Isa isa,
                                               const PairSearchOptions& options) {
   using Result = std::unique_ptr<SoftLandscape>;
-  return std::visit(Overloaded{[&](const PairModel& pairs) -> Result {
-                                 return std::make_unique<PairLandscape>(pairs, box, layout, isa, options);
-                               },
-                               [&](const StateMixtureModel& states) { return make(states, box, layout, isa, options); },
-                               [](const HardSphereModel& spheres) -> Result {
-                                 throw_bad_input(fmt::format("model {} has no soft landscape: its spheres are hard", spheres.name));
-                               }},
-                    model);
+  return std::visit(
+      Overloaded{
+          [&](const PairModel& pairs) -> Result { return std::make_unique<PairLandscape>(pairs, box, layout, isa, options); },
+          [&](const StateMixtureModel& states) -> Result { return make_state_landscape(states, box, layout, isa, options); },
+          [](const HardSphereModel& spheres) -> Result {
+            throw_bad_input(fmt::format("model {} has no soft landscape: its spheres are hard", spheres.name));
+          }},
+      model);
 }
 
 }  // namespace lanescape

@@ -6,6 +6,7 @@
 #include "dispatch/isa.hpp"
 #include "interaction/pair/pair_interaction.hpp"
 #include "landscape/soft_landscape.hpp"
+#include "landscape/state_mixture_landscape.hpp"
 
 namespace lanescape {
 
@@ -13,5 +14,10 @@ namespace lanescape {
 // not support it.
 std::unique_ptr<SoftLandscape> make_landscape(const AnyModel& model, const Box& box, const ParticleLayout& layout, Isa isa,
                                               const PairSearchOptions& options = {});
+
+// The same for sites in states.
+std::unique_ptr<StateMixtureLandscape> make_state_landscape(const StateMixtureModel& model, const Box& box,
+                                                            const ParticleLayout& layout, Isa isa,
+                                                            const PairSearchOptions& options = {});
 
 }  // namespace lanescape

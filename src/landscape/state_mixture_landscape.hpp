@@ -24,6 +24,11 @@ class StateMixtureLandscape final : public SoftLandscape {
   }
   void exchange(Archive& archive) override { interaction_.exchange(archive); }
 
+  // Overwrites `gradient`.
+  StateMixture::Evaluation energy_and_virial(const AlignedArray& position, AlignedArray& gradient) {
+    return interaction_.energy_and_gradient(position, gradient);
+  }
+
   // Its states and densities are those of the last evaluation.
   const StateMixture& interaction() const { return interaction_; }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "core/coordinate_checks.hpp"
@@ -12,6 +13,8 @@
 #include "core/overloaded.hpp"
 #include "interaction/pair/pair_interaction.hpp"
 #include "interaction/sphere/check_overlap.hpp"
+#include "interaction/state/state_mixture.hpp"
+#include "landscape/make_landscape.hpp"
 #include "landscape/pair_landscape.hpp"
 
 namespace lanescape {
@@ -81,25 +84,34 @@ class HardSource {
   std::uint64_t recorded_ = 0;
 };
 
+PairSearchOptions search_of(const EndPointOptions& options) { return {.threads = options.threads, .precision = options.precision}; }
+
+std::unique_ptr<PairLandscape> landscape_of(const PairModel& model, const Box& box, const ParticleLayout& layout, Isa isa,
+                                            const EndPointOptions& options) {
+  return std::make_unique<PairLandscape>(model, box, layout, isa, search_of(options));
+}
+
+std::unique_ptr<StateMixtureLandscape> landscape_of(const StateMixtureModel& model, const Box& box, const ParticleLayout& layout,
+                                                    Isa isa, const EndPointOptions& options) {
+  return make_state_landscape(model, box, layout, isa, search_of(options));
+}
+
 // Trajectories of soft particles: the end-point protocol up to its first pair, then plain molecular dynamics.
+template <class Landscape>
 class SoftSource {
  public:
   static constexpr std::uint64_t records_per_virial = 10;
 
-  SoftSource(const PairModel& model, const ParticleLayout& layout, const Configuration& start, const DiffusionRunOptions& options,
+  template <class SoftModel>
+  SoftSource(const SoftModel& model, const ParticleLayout& layout, const Configuration& start, const DiffusionRunOptions& options,
              Isa isa)
       : layout_(&layout),
         options_(&options),
         volume_(start.box.volume()),
-        landscape_(model, start.box, layout, isa,
-                   {.threads = options.equilibration.threads, .precision = options.equilibration.precision}),
-        generator_(landscape_, model, layout, layout.to_slots(start.positions), options.equilibration),
+        landscape_(landscape_of(model, start.box, layout, isa, options.equilibration)),
+        generator_(*landscape_, model, layout, layout.to_slots(start.positions), options.equilibration),
         gradient_(layout.dimension(), 0.0),
         steps_per_record_(static_cast<std::uint64_t>(std::lround(options.window.interval / options.equilibration.time_step))) {}
-  // The generator points to the landscape.
-  SoftSource(const SoftSource&) = delete;
-  SoftSource& operator=(const SoftSource&) = delete;
-
   double equilibrate() {
     using Phase = EndPointGenerator::Phase;
     for (int k = 0; k < 1000 && generator_.phase() < Phase::pair; ++k) generator_.step();
@@ -117,7 +129,7 @@ class SoftSource {
       const double t = verlet.temperature();
       temperature_ += t;
       pressure_ +=
-          (static_cast<double>(layout_->size()) * t + landscape_.energy_and_virial(verlet.position(), gradient_).virial / 3.0) /
+          (static_cast<double>(layout_->size()) * t + landscape_->energy_and_virial(verlet.position(), gradient_).virial / 3.0) /
           volume_;
       ++samples_;
     }
@@ -145,7 +157,7 @@ class SoftSource {
   const ParticleLayout* layout_;
   const DiffusionRunOptions* options_;
   double volume_;
-  PairLandscape landscape_;
+  std::unique_ptr<Landscape> landscape_;
   EndPointGenerator generator_;
   AlignedArray gradient_;
   std::uint64_t steps_per_record_, recorded_ = 0, samples_ = 0;
@@ -233,6 +245,17 @@ DiffusionRunResult run(const SourceModel& model, const Configuration& start, con
   return work.result(run_to_end(work, "diffusion.h5", checkpoint, monitor));
 }
 
+template <class Landscape, class SoftModel>
+DiffusionRunResult run_soft(const SoftModel& model, const Configuration& start, const DiffusionRunOptions& options, Isa isa,
+                            const CheckpointOptions& checkpoint, RunMonitor& monitor) {
+  check_separations(start, model);
+  const double steps = options.window.interval / options.equilibration.time_step;
+  if (!(steps >= 0.999 && std::fabs(steps - std::round(steps)) < 1e-6 * steps))
+    throw_bad_input(fmt::format("record interval {} is not allowed: a multiple of the time step {} is needed",
+                                options.window.interval, options.equilibration.time_step));
+  return run<SoftSource<Landscape>>(model, start, options, isa, checkpoint, monitor);
+}
+
 }  // namespace
 
 void DiffusionRunOptions::check() const {
@@ -288,18 +311,10 @@ DiffusionRunResult run_diffusion(const AnyModel& model, const Configuration& sta
                    check_no_overlap(start, kernel_table(isa));
                    return run<HardSource>(hard, start, options, isa, checkpoint, monitor);
                  },
-                 [&](const StateMixtureModel& states) -> DiffusionRunResult {
-                   throw_bad_input(fmt::format(
-                       "diffusion of model {} is not there yet: Lennard-Jones mixtures and hard spheres are", states.name));
+                 [&](const StateMixtureModel& states) {
+                   return run_soft<StateMixtureLandscape>(states, start, options, isa, checkpoint, monitor);
                  },
-                 [&](const PairModel& soft) {
-                   check_separations(start, soft);
-                   const double steps = options.window.interval / options.equilibration.time_step;
-                   if (!(steps >= 0.999 && std::fabs(steps - std::round(steps)) < 1e-6 * steps))
-                     throw_bad_input(fmt::format("record interval {} is not allowed: a multiple of the time step {} is needed",
-                                                 options.window.interval, options.equilibration.time_step));
-                   return run<SoftSource>(soft, start, options, isa, checkpoint, monitor);
-                 }},
+                 [&](const PairModel& soft) { return run_soft<PairLandscape>(soft, start, options, isa, checkpoint, monitor); }},
       model);
 }
 

@@ -4,7 +4,7 @@ import unittest
 
 import numpy
 
-from cli_support import DATA, EXAMPLES, ARGON, FLUID, ProgramTest, frame
+from cli_support import DATA, EXAMPLES, ARGON, FLUID, PROTOCOL, ProgramTest, frame
 
 
 class States(ProgramTest):
@@ -81,6 +81,15 @@ class States(ProgramTest):
                 bad = self.file("bad.toml", content)
                 self.refused_cleanly("energy", file, "--model-file", bad, says=("bad.toml:", *says))
 
+    def test_sites_in_states_diffuse(self):
+        result = self.done("diffusion", "--model", "ucg", "--particles", "32", "--density", "0.5", "--temperature", "1", *PROTOCOL[:-2],
+                           "--lags", "50", "--records", "200", "--trajectories", "2", "--between", "10")
+        argon = result["species"]["Ar"]
+        self.assertAlmostEqual(argon["diffusion_vacf"], argon["diffusion_msd"], delta=0.2 * argon["diffusion_msd"])
+        self.assertEqual(argon["wave_number"], 7.25)
+        self.assertIn("pressure", result)
+        self.assertNotIn("precision", result)
+
     def test_options_that_do_not_fit_are_refused(self):
         file = self.melt("Ar")
         for arguments, *says in ((("--images", "minimum"), "--images", "all images"), (("--truncation", "tail"), "--truncation"),
@@ -92,7 +101,7 @@ class States(ProgramTest):
         self.refused_cleanly("energy", file, "--model", "ucg", "--model-file", lennard_jones, says=("ucg", "another kind"))
         self.refused_cleanly("energy", file, *ARGON, "--states", says=("--states", "ucg"))
         self.refused_cleanly("verify", file, "--model", "ucg", says=("verify", "sites with states"))
-        self.refused_cleanly("diffusion", "--model", "ucg", says=("diffusion", "ucg"))
+        self.refused_cleanly("diffusion", "--model", "ucg", "--precision", "mixed", says=("--precision", "double"))
         self.refused_cleanly("energy", self.file("close.extxyz", frame("Ar 0 0 0", "Ar 0.2 0 0")), "--model", "ucg", says=("close.extxyz", "overlap"))
 
 

@@ -137,7 +137,7 @@ Json run_diffusion_command(DiffusionState& state, Options& options, int& status)
   if (state.setup.radius_factor()) result["radius_factor"] = *state.setup.radius_factor();
   result["particles"] = start.size();
   result["isa"] = to_string(isa);
-  if (!hard) result["precision"] = to_string(state.system.resolve_precision());
+  if (traits_of(model).has_precision) result["precision"] = to_string(state.system.resolve_precision());
   status = status_of_run(run.equilibrated, run.interrupted);
   if (folder.exists()) {
     write_curves(folder, run.diffusion, mixture_of(model));

@@ -37,6 +37,14 @@ struct Soft {
   }
 };
 
+// Sites in states.
+struct States : Soft {
+  States() {
+    model = liquid_vapour();
+    start = fcc_start(liquid_vapour(), 32, 0.5, 1);
+  }
+};
+
 struct Hard {
   AnyModel model = hard_sphere_binary();
   Configuration start = hard_sphere_start(hard_sphere_binary(), 16, 0.2, Arrangement::random, 1);
@@ -58,7 +66,7 @@ DiffusionRunResult run(const System& system, const CheckpointOptions& checkpoint
 
 template <class System>
 class DiffusionRunOf : public ::testing::Test {};
-using Systems = ::testing::Types<Soft, Hard>;
+using Systems = ::testing::Types<Soft, States, Hard>;
 TYPED_TEST_SUITE(DiffusionRunOf, Systems);
 
 TYPED_TEST(DiffusionRunOf, InterruptedAndResumedEndsWithTheSameBits) {
@@ -76,7 +84,7 @@ TYPED_TEST(DiffusionRunOf, InterruptedAndResumedEndsWithTheSameBits) {
     EXPECT_LT(begun.diffusion.trajectories(), 2u);
     const DiffusionRunResult resumed = run(system, {folder.path(), true});
     ASSERT_EQ(resumed.diffusion.trajectories(), 2u);
-    for (std::size_t s = 0; s < 2; ++s) {
+    for (std::size_t s = 0; s < whole.diffusion.species(); ++s) {
       EXPECT_EQ(resumed.diffusion.vacf_diffusion(s).value, whole.diffusion.vacf_diffusion(s).value);
       EXPECT_EQ(resumed.diffusion.msd_diffusion(s).error, whole.diffusion.msd_diffusion(s).error);
       for (std::size_t p = 0; p < whole.relaxation.points(); ++p) {
@@ -106,7 +114,11 @@ TEST(DiffusionRun, RefusesWhatCannotBe) {
               std::copy_n(s.start.positions.begin(), 3, s.start.positions.begin() + 3);
             }).rfind("particles 0 and 1 overlap", 0),
             0u);
-  EXPECT_EQ(refused([](Soft& s) { s.model = liquid_vapour(); }).rfind("diffusion of model ucg is not there yet", 0), 0u);
+  EXPECT_EQ(refused([](Soft& s) {
+              s = States();
+              s.options.equilibration.precision = Precision::mixed;
+            }).rfind("mixed precision is not allowed with model", 0),
+            0u);
 }
 
 TEST(DiffusionRun, RelaxationIsMeasuredAtTheFirstPeakOfTheStructureFactorUnlessGiven) {
