@@ -55,6 +55,19 @@ void add_free_gas(RelaxationAccumulator& relaxation, const ParticleLayout& layou
   });
 }
 
+// Positions at so many records, with values in the padding too.
+std::vector<AlignedArray> random_walk(const ParticleLayout& layout, std::uint64_t records) {
+  std::mt19937_64 random(records);
+  std::normal_distribution<double> step(0.0, 0.1);
+  AlignedArray position(layout.dimension(), 0.0);
+  std::vector<AlignedArray> positions;
+  for (std::uint64_t t = 0; t < records; ++t) {
+    for (double& x : position) x += step(random);
+    positions.push_back(position);
+  }
+  return positions;
+}
+
 TEST(Relaxation, LagsAreSpacedByFactorsAndOriginsAreAtMostAHundred) {
   for (const std::uint64_t records : {2, 3, 7, 100, 101, 11'000, 300'000}) {
     const RelaxationWindow window = window_of(records);
@@ -88,14 +101,8 @@ TEST(Relaxation, CurvesAreTheirDoubleSumsOnAnyMotion) {
   for (const std::uint64_t records : {2, 9, 250}) {  // at 250 every third record is an origin
     const RelaxationWindow window = window_of(records);
     RelaxationAccumulator relaxation(layout, window);
-    std::mt19937_64 random(records);
-    std::normal_distribution<double> normal(0.0, 0.1);
-    std::vector<AlignedArray> positions;  // with values in the padding
-    for (std::uint64_t t = 0; t < records; ++t) {
-      positions.emplace_back(layout.dimension());
-      for (double& x : positions.back()) x = normal(random) + (t > 0 ? positions[t - 1][&x - positions.back().data()] : 0.0);
-      relaxation.record(positions.back());
-    }
+    const std::vector<AlignedArray> positions = random_walk(layout, records);
+    for (const AlignedArray& position : positions) relaxation.record(position);
     ASSERT_EQ(relaxation.trajectories(), 1u);
     const std::vector<std::uint64_t> lags = window.lags();
     for (std::size_t s = 0; s < 2; ++s)
