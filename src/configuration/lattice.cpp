@@ -49,9 +49,14 @@ struct Lattice {
   std::array<std::size_t, 3> cells{1, 1, 1};  // along each edge
   std::vector<std::size_t> sites;             // of each particle
 
-  // In a cube, or in a box of this shape.
+  // In a cube, which has as many cells along each edge, or in a box of this shape.
   Lattice(std::size_t particles, std::uint64_t seed, const Point& edges = {1.0, 1.0, 1.0}) {
+    const bool cube = edges[0] == edges[1] && edges[1] == edges[2];
     while (4 * cells[0] * cells[1] * cells[2] < particles) {
+      if (cube) {
+        for (std::size_t& n : cells) ++n;
+        continue;
+      }
       // The longest cell is cut.
       const auto longer = [&](std::size_t a, std::size_t b) {
         return edges[a] / static_cast<double>(cells[a]) < edges[b] / static_cast<double>(cells[b]);
