@@ -17,6 +17,7 @@ BufferLandscape::BufferLandscape(PairLandscape& pairs, const ParticleLayout& lay
       forces_across_(geometry.slices, 0.0) {
   for (std::size_t face = 0; face < 2; ++face) {
     const double inwards = face == 0 ? 1.0 : -1.0, area = geometry.area;
+    sheared_ = sheared_ || demands[face].shear[0] != 0.0 || demands[face].shear[1] != 0.0;
     total_[face] = {inwards * demands[face].pressure * area, demands[face].shear[0] * area, demands[face].shear[1] * area};
   }
 }
@@ -117,7 +118,8 @@ void BufferLandscape::gradient_after(const SlotWork& move, const AlignedArray& p
   count_passages(position);
   for_each_range([&](std::size_t range) {
     const std::size_t begin = range * slot_range, end = std::min(begin + slot_range, count_);
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    // y and z matter to the work of shear alone.
+    for (std::size_t axis = 0; axis < (sheared_ ? 3U : 1U); ++axis)
       std::copy(position.begin() + static_cast<std::ptrdiff_t>(axis * slots_ + begin),
                 position.begin() + static_cast<std::ptrdiff_t>(axis * slots_ + end),
                 before_.begin() + static_cast<std::ptrdiff_t>(axis * slots_ + begin));

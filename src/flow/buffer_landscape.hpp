@@ -80,7 +80,7 @@ class BufferLandscape final : public SoftLandscape {
   Outside::Reports reports_{};
   PlanePassages passages_;
   std::vector<double> forces_across_;
-  bool emptied_ = false;
+  bool sheared_ = false, emptied_ = false;
 };
 
 }  // namespace lanescape

@@ -19,6 +19,16 @@ constexpr std::size_t candidates_at_once = 16;
 // Limit of candidates per start. After it the last candidate is used, for instance if no point of the region is clear.
 constexpr int most_candidates = 16'384;
 
+// Axes along which a search ends at the sides of its region, or at open faces; along a whole periodic edge it goes round.
+std::array<bool, 3> walls_of(const std::optional<Region>& region, const Box& box) {
+  std::array<bool, 3> walls{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const bool whole = !region || region->high[axis] - region->low[axis] >= (1.0 - 1e-12) * box.length[axis];
+    walls[axis] = !(box.periodic[axis] && whole);
+  }
+  return walls;
+}
+
 double default_largest_step(const ProbeField& fluid) {
   double reduced_volume = 1.0;
   for (const double edge : fluid.box().length) reduced_volume *= edge / fluid.length_unit();
@@ -39,9 +49,8 @@ InsertionSearch::InsertionSearch(const ProbeField& fluid, const InsertionOptions
       traverse_step_(options.traverse_step.value_or(1.5 * fluid.length_unit())),
       clearances_(fluid.clearances(options.clear_energy)),
       region_(options.region.value_or(Region{{}, fluid.box().length})),
-      has_walls_(options.region ? std::array{true, true, true}
-                                : std::array{!fluid.box().periodic[0], !fluid.box().periodic[1], !fluid.box().periodic[2]}),
-      whole_box_(!options.region && !fluid.box().has_open_axis()),
+      has_walls_(walls_of(options.region, fluid.box())),
+      whole_box_(has_walls_ == std::array{false, false, false}),
       observer_(std::move(observer)) {}
 
 InsertionSearch::Site InsertionSearch::probe(const Point& position) {
