@@ -11,6 +11,7 @@
 #include <lanescape/domain_potential.hpp>
 #include <lanescape/dynamics.hpp>
 #include <lanescape/error.hpp>
+#include <lanescape/flow.hpp>
 #include <lanescape/hard_spheres.hpp>
 #include <lanescape/insertion.hpp>
 #include <lanescape/landscape.hpp>
