@@ -52,8 +52,7 @@ class FlowWork final : public ResumableWork {
     if (intervals_ < thermalized()) slab_->thermalize(options_->temperature, 1.0 - std::exp(-thermal_rate * interval_time()));
     if (slab_->advance() != FlowOutcome::followed) return;
     ++intervals_;
-    if (intervals_ % per_row() == 0)
-      record_.add(*slab_, intervals_ > resting() ? *outside_ : *resting_outside_, time(), intervals_ > resting());
+    if (intervals_ % per_row() == 0) record_.add(*slab_, present_outside(), time(), intervals_ > resting());
     monitor.progress("flow", static_cast<double>(intervals_), static_cast<double>(resting() + flowing()));
   }
   bool save_due() const override { return intervals_ % intervals_per_checkpoint == 0; }
@@ -66,10 +65,7 @@ class FlowWork final : public ResumableWork {
     auto begun = static_cast<std::uint64_t>(slab_ ? 1 : 0);
     archive.field("begun", begun);
     if (begun == 0) return fluid_.exchange(archive);
-    if (archive.reading()) {
-      begin();
-      if (intervals_ > resting()) slab_->set_outside(*outside_);
-    }
+    if (archive.reading()) begin();
     slab_->exchange(archive);
     record_.exchange(archive);
   }
@@ -138,6 +134,12 @@ class FlowWork final : public ResumableWork {
     return 1.5 * options_->temperature + excess_energy_ + pressure() / density_ + 0.5 * mass * velocity * velocity;
   }
 
+  // That of the last interval.
+  Outside& present_outside() {
+    if (intervals_ > resting()) return *outside_;
+    return *resting_outside_;
+  }
+
   void begin() {
     const FaceDemand rest = this->rest();
     resting_outside_.emplace(
@@ -156,7 +158,7 @@ class FlowWork final : public ResumableWork {
     }
     if (fluid_.configuration.box.periodic[0]) thin_out_buffers();
     fluid_.configuration.box.periodic[0] = false;
-    slab_.emplace(*model_, fluid_, options_->slab, *resting_outside_);
+    slab_.emplace(*model_, fluid_, options_->slab, present_outside());
   }
   // A fluid cut out of a larger one is as dense at its faces as inside. Without what its buffers will not hold, it keeps its
   // density.

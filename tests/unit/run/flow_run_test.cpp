@@ -5,6 +5,7 @@
 #include <string>
 
 #include "configuration/lattice.hpp"
+#include "flow/continuum_outside.hpp"
 #include "stopping_monitor.hpp"
 #include "test_files.hpp"
 
@@ -63,6 +64,29 @@ TEST(FlowRun, InterruptedAndResumedEndsWithTheSameBits) {
       EXPECT_EQ(resumed.rows[row].pressure, whole.rows[row].pressure);
     }
     EXPECT_EQ(resumed.insertions[0].size(), whole.insertions[0].size());
+  }
+}
+
+TEST(FlowRun, ContinuaResumeWithTheSameBits) {
+  ContinuumOptions outer;
+  outer.cutoff = 2.5;
+  outer.planes = {4.0, 16.0};
+  outer.area = 49.0;
+  outer.cells = 10;
+  outer.cell_width = 2.0;
+  outer.slice_distance = 1.0;
+  const auto flow = [&](const CheckpointOptions& checkpoint, RunMonitor&& monitor) {
+    ContinuumOutside outside(outer);
+    return run_flow(lennard_jones(), start(), short_flow(), &outside, checkpoint, monitor);
+  };
+  const FlowResult whole = flow({}, SilentMonitor());
+  EXPECT_EQ(whole.rows.back().outside.size(), 20u);
+  for (const int looks : {4, 6}) {
+    const testing::TemporaryFolder folder;
+    EXPECT_TRUE(flow({folder.path(), false}, testing::StoppingMonitor(looks)).interrupted);
+    const FlowResult resumed = flow({folder.path(), true}, SilentMonitor());
+    EXPECT_EQ(resumed.last.configuration.positions, whole.last.configuration.positions);
+    EXPECT_EQ(resumed.rows.back().outside[9].density, whole.rows.back().outside[9].density);
   }
 }
 
