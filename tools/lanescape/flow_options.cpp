@@ -20,8 +20,8 @@ void add_slab_options(FlowSetup& setup, Options& options) {
   options.add("--temperature", setup.flow.temperature,
               "of the start, and of particles that are put in by a constant outside [epsilon]");
   options.add("--buffer", slab.buffer, "width of the layers at the faces that bear the outside's pressure [sigma]");
-  options.add("--nearest", slab.faces.nearest, "distance from a face from which on particles are put in or taken out [sigma]");
-  options.add("--farthest", slab.faces.farthest, "distance up to which they are [sigma]");
+  options.add("--nearest", slab.faces.nearest, "distance from a face from which on particles are put in [sigma]");
+  options.add("--farthest", slab.faces.farthest, "distance up to which they are, and within which they are taken out [sigma]");
   options.add("--slice", slab.slice, "about, the thickness of the slices of profiles [sigma]");
   options.add("--thermostat-rate", slab.faces.thermostat_rate,
               "at which particles in the buffers get new thermal velocities; 0: no thermostat");
