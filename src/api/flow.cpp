@@ -77,7 +77,7 @@ OpenSlabOptions options_of(const OpenFlow::Options& from) {
   options.faces.thermostat_rate = from.thermostat_rate;
   options.faces.insertion.tolerance = from.tolerance;
   options.faces.insertion.seed = from.seed;
-  options.threads = options.faces.threads = checked_threads(from.threads);
+  options.threads = checked_threads(from.threads);
   options.isa = choose_isa(from.instruction_set);
   return options;
 }

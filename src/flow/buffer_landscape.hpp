@@ -24,7 +24,7 @@ struct PlanePassages {
 // that of the pairs alone.
 class BufferLandscape final : public SoftLandscape {
  public:
-  // All but `layout` are copied. `mass`: of a particle.
+  // `pairs` must outlive this object. `mass`: of a particle.
   BufferLandscape(PairLandscape& pairs, const ParticleLayout& layout, const SlabGeometry& geometry, const Outside::Demands& demands,
                   double mass, double time_step);
 

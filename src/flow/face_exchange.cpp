@@ -26,10 +26,6 @@ constexpr EnumWord<FlowOutcome> outcomes[] = {{FlowOutcome::followed, "done"},
                                               {FlowOutcome::rate_too_high, "rate too high"},
                                               {FlowOutcome::no_particle, "no particle left"}};
 
-double squared(const Point& v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
-
-Point velocity_of(const FluidState& fluid, std::size_t i) { return point_at(fluid.velocities.data(), i); }
-
 void erase(FluidState& fluid, std::vector<std::size_t> particles) {
   std::sort(particles.begin(), particles.end());
   auto next = particles.begin();
@@ -59,16 +55,21 @@ const char* to_string(FlowOutcome outcome) { return word_of(outcomes, outcome); 
 struct FaceExchange::Neighbourhood {
   Configuration fluid;
   std::vector<std::size_t> particles;        // of it, in the slab
-  std::size_t further_in = 0;                // in a layer of the thickness of the cutoff beside the buffer
   std::vector<std::size_t> left, in_region;  // those beyond the face; those in the region, indices in `fluid`
   std::vector<std::size_t> gone, in_buffer;  // taken out; in the buffer: in the slab
-  double density = 0.0;                      // of that layer
+  double density = 0.0;                      // of a layer of the thickness of the cutoff beside the buffer
   std::optional<ProbeField> field;
 };
 
 FaceExchange::FaceExchange(const PairModel& model, const SlabGeometry& geometry, std::size_t face,
-                           const FaceExchangeOptions& options, Isa isa)
-    : model_(&model), geometry_(geometry), face_(face), options_(options), isa_(isa), mass_(model.species.front().mass) {}
+                           const FaceExchangeOptions& options, Isa isa, int threads)
+    : model_(&model),
+      geometry_(geometry),
+      face_(face),
+      options_(options),
+      isa_(isa),
+      threads_(threads),
+      mass_(model.species.front().mass) {}
 
 Region FaceExchange::region(const Box& box) const {
   Region region{{}, box.length};
@@ -84,11 +85,11 @@ double FaceExchange::insertion_rate(double density, double temperature) const {
 }
 
 void FaceExchange::count_out(const FluidState& fluid, std::size_t particle, double energy, FaceReport& report) {
-  const Point velocity = velocity_of(fluid, particle);
+  const Point velocity = point_at(fluid.velocities.data(), particle);
   passed_ -= 1.0;
   report.particles -= sign();
   for (std::size_t axis = 0; axis < 3; ++axis) report.momentum[axis] -= sign() * mass_ * velocity[axis];
-  report.energy -= sign() * (energy + 0.5 * mass_ * squared(velocity));
+  report.energy -= sign() * (energy + 0.5 * mass_ * dot(velocity, velocity));
 }
 
 void FaceExchange::take_out_left(FluidState& fluid, Neighbourhood& near, FaceReport& report) {
@@ -110,8 +111,7 @@ FlowOutcome FaceExchange::put_in(FluidState& fluid, Neighbourhood& near, const F
   const double density = static_cast<double>(near.in_region.size()) / (geometry_.area * options_.farthest);
   if (!with.largest_step) with.largest_step = 0.1 * std::pow(std::max(density, 0.05), -1.5);
   const CounterRandom random(with.seed, RandomStream::flow);
-  for (const Insertion& one : insert_particles(*near.field, with, count, history_, options_.threads)) {
-    counts_.evaluations += one.evaluations;
+  for (const Insertion& one : insert_particles(*near.field, with, count, history_, threads_)) {
     if (!one.found) return FlowOutcome::no_place;
     const Point velocity = maxwellian_velocity(random, 2 * counts_.put_in + face_, demand.temperature, mass_, demand.velocity);
     fluid.add(0, one.position, velocity);
@@ -120,12 +120,12 @@ FlowOutcome FaceExchange::put_in(FluidState& fluid, Neighbourhood& near, const F
     passed_ += 1.0;
     report.particles += sign();
     for (std::size_t axis = 0; axis < 3; ++axis) report.momentum[axis] += sign() * mass_ * velocity[axis];
-    report.energy += sign() * (one.energy + 0.5 * mass_ * squared(velocity));
+    report.energy += sign() * (one.energy + 0.5 * mass_ * dot(velocity, velocity));
   }
   return FlowOutcome::followed;
 }
 
-FlowOutcome FaceExchange::take_out(FluidState& fluid, Neighbourhood& near, std::uint64_t count, double target, FaceReport& report) {
+void FaceExchange::take_out(FluidState& fluid, Neighbourhood& near, std::uint64_t count, double target, FaceReport& report) {
   const CounterRandom random(options_.insertion.seed, RandomStream::flow);
   // The outside's force needs particles that bear it, until the flow brings others.
   const double kept = least_filling * near.density * geometry_.area * geometry_.buffer;
@@ -143,12 +143,12 @@ FlowOutcome FaceExchange::take_out(FluidState& fluid, Neighbourhood& near, std::
     std::erase(near.in_region, removal.particle);
     ++counts_.taken_out;
   }
-  return FlowOutcome::followed;
 }
 
 FaceExchange::Neighbourhood FaceExchange::neighbourhood(const FluidState& fluid) const {
-  Neighbourhood near{{fluid.configuration.box, {}, {}}, {}, 0, {}, {}, {}, {}, 0.0, {}};
-  const double reach = std::max(options_.farthest, geometry_.buffer) + model_->largest_cutoff();
+  Neighbourhood near{{fluid.configuration.box, {}, {}}, {}, {}, {}, {}, {}, 0.0, {}};
+  const double cutoff = model_->largest_cutoff(), reach = std::max(options_.farthest, geometry_.buffer) + cutoff;
+  double in_layer = 0.0;
   for (std::size_t i = 0; i < fluid.configuration.size(); ++i) {
     const Point position = fluid.configuration.position(i);
     const double from_face = distance(position[0]);
@@ -156,12 +156,12 @@ FaceExchange::Neighbourhood FaceExchange::neighbourhood(const FluidState& fluid)
     if (from_face > reach) continue;
     if (from_face < 0.0) near.left.push_back(near.particles.size());
     if (from_face >= 0.0 && from_face <= options_.farthest) near.in_region.push_back(near.particles.size());
-    if (from_face >= geometry_.buffer && from_face < geometry_.buffer + model_->largest_cutoff()) ++near.further_in;
+    if (from_face >= geometry_.buffer && from_face < geometry_.buffer + cutoff) in_layer += 1.0;
     near.particles.push_back(i);
     near.fluid.species.push_back(0);
     near.fluid.positions.insert(near.fluid.positions.end(), position.begin(), position.end());
   }
-  near.density = static_cast<double>(near.further_in) / (geometry_.area * model_->largest_cutoff());
+  near.density = in_layer / (geometry_.area * cutoff);
   return near;
 }
 
@@ -181,7 +181,7 @@ FlowOutcome FaceExchange::settle(FluidState& fluid, Neighbourhood& near, const F
   const double now_in = std::clamp(owed, 0.0, std::floor(allowed_));
   allowed_ -= now_in;
   if (std::abs(owed) - now_in > std::max(10.0, rate * longest_lag)) return FlowOutcome::rate_too_high;
-  if (owed < 0.0) return take_out(fluid, near, static_cast<std::uint64_t>(-owed), target, report);
+  if (owed < 0.0) take_out(fluid, near, static_cast<std::uint64_t>(-owed), target, report);
   return now_in > 0.0 ? put_in(fluid, near, demand, static_cast<std::uint64_t>(now_in), target, now, report)
                       : FlowOutcome::followed;
 }
@@ -205,8 +205,6 @@ FlowOutcome FaceExchange::pass(FluidState& fluid, const FaceDemand& demand, doub
   return outcome;
 }
 
-std::vector<FlowInsertion> FaceExchange::take_insertions() { return std::exchange(insertions_, {}); }
-
 void FaceExchange::exchange(Archive& archive) {
   archive.enter(face_ == 0 ? "inlet" : "outlet");
   archive.field("due", due_);
@@ -216,19 +214,6 @@ void FaceExchange::exchange(Archive& archive) {
   archive.field("left", counts_.left);
   archive.field("put_in", counts_.put_in);
   archive.field("taken_out", counts_.taken_out);
-  archive.field("evaluations", counts_.evaluations);
-  std::vector<double> insertions;
-  for (const FlowInsertion& one : insertions_)
-    for (const double number : {one.time, one.density, static_cast<double>(one.evaluations), one.energy, one.distance})
-      insertions.push_back(number);
-  archive.field("insertions", insertions);
-  if (archive.reading()) {
-    insertions_.clear();
-    for (std::size_t k = 0; k + 5 <= insertions.size(); k += 5) {
-      const double* one = insertions.data() + k;
-      insertions_.push_back({one[0], one[1], static_cast<std::uint64_t>(one[2]), one[3], one[4]});
-    }
-  }
   history_.exchange(archive);
   archive.leave();
 }

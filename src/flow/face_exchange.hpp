@@ -21,10 +21,9 @@ struct FaceExchangeOptions {
   // thin, so that those which go have about the energy of those that come, and the force of the outside does the work p/rho on
   // each.
   double nearest = 0.5, farthest = 2.5;
-  InsertionOptions insertion;  // its target, region and largest step are ignored
+  InsertionOptions insertion;  // its target and region are ignored; its largest step is by default that of the density at the face
   RemovalRule removal = RemovalRule::least_disturbance;
   double thermostat_rate = 0.0;  // per time, at which a particle of a buffer gets a new thermal velocity; 0: no thermostat
-  int threads = 1;               // no effect on any result
 };
 
 // An insertion and the fluid where it was searched for.
@@ -47,20 +46,23 @@ const char* to_string(FlowOutcome outcome);
 // or taken out, as the net number through the face asks for: the integral of the mass flux, rounded down.
 class FaceExchange {
  public:
-  // `face`: 0 at x = 0, 1 at x = L. `model` must outlive this object.
-  FaceExchange(const PairModel& model, const SlabGeometry& geometry, std::size_t face, const FaceExchangeOptions& options, Isa isa);
+  // `face`: 0 at x = 0, 1 at x = L. `model` must outlive this object. `threads` have no effect on any result.
+  FaceExchange(const PairModel& model, const SlabGeometry& geometry, std::size_t face, const FaceExchangeOptions& options, Isa isa,
+               int threads);
 
   // An exchange after an interval of `time`. `mean_energy`: potential energy per particle of the slab. Adds what passes to
   // `report`.
   FlowOutcome pass(FluidState& fluid, const FaceDemand& demand, double now, double time, double mean_energy, FaceReport& report);
 
   struct Counts {
-    std::uint64_t left = 0, put_in = 0, taken_out = 0, evaluations = 0;
+    std::uint64_t left = 0, put_in = 0, taken_out = 0;
   };
   const Counts& counts() const { return counts_; }
-  // Insertions since the last call.
-  std::vector<FlowInsertion> take_insertions();
+  // Since the last call of forget_insertions().
+  const std::vector<FlowInsertion>& insertions() const { return insertions_; }
+  void forget_insertions() { insertions_.clear(); }
 
+  // All but insertions().
   void exchange(Archive& archive);
 
  private:
@@ -81,7 +83,7 @@ class FaceExchange {
   void take_out_left(FluidState& fluid, Neighbourhood& near, FaceReport& report);
   FlowOutcome put_in(FluidState& fluid, Neighbourhood& near, const FaceDemand& demand, std::uint64_t count, double target,
                      double now, FaceReport& report);
-  FlowOutcome take_out(FluidState& fluid, Neighbourhood& near, std::uint64_t count, double target, FaceReport& report);
+  void take_out(FluidState& fluid, Neighbourhood& near, std::uint64_t count, double target, FaceReport& report);
   void count_out(const FluidState& fluid, std::size_t particle, double energy, FaceReport& report);
 
   const PairModel* model_;
@@ -89,6 +91,7 @@ class FaceExchange {
   std::size_t face_;
   FaceExchangeOptions options_;
   Isa isa_;
+  int threads_;
   double mass_;
   double due_ = 0.0;      // particles into the slab, by the mass fluxes so far
   double passed_ = 0.0;   // those that went in, net

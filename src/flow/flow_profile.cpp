@@ -8,7 +8,7 @@ namespace lanescape {
 FlowSampler::FlowSampler(const SlabGeometry& geometry, double mass) : geometry_(geometry), mass_(mass) { clear(); }
 
 void FlowSampler::clear() {
-  samples_ = energy_samples_ = 0;
+  samples_ = 0;
   time_ = 0.0;
   for (auto* sums : {&count_, &kinetic_, &energy_count_, &potential_, &across_, &passed_, &passed_particles_})
     sums->assign(geometry_.slices, 0.0);
@@ -36,7 +36,6 @@ void FlowSampler::add_energies(std::span<const double> positions, std::span<cons
     energy_count_[slice] += 1.0;
     potential_[slice] += energies[i];
   }
-  ++energy_samples_;
 }
 
 void FlowSampler::add_passages(std::span<const double> particles, std::span<const double> momentum, double time) {
@@ -79,7 +78,6 @@ FlowProfile FlowSampler::profile() const {
 void FlowSampler::exchange(Archive& archive) {
   archive.enter("profile");
   archive.field("samples", samples_);
-  archive.field("energy_samples", energy_samples_);
   archive.field("time", time_);
   archive.field("count", count_);
   archive.field("momentum", momentum_);

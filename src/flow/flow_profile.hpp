@@ -44,7 +44,7 @@ class FlowSampler {
 
   SlabGeometry geometry_;
   double mass_;
-  std::uint64_t samples_ = 0, energy_samples_ = 0;
+  std::uint64_t samples_ = 0;
   double time_ = 0.0;
   // Sums per slice; momentum: three numbers each.
   std::vector<double> count_, momentum_, kinetic_, energy_count_, potential_;

@@ -82,7 +82,8 @@ OpenSlab::OpenSlab(const PairModel& model, FluidState start, const OpenSlabOptio
       outside_(&outside),
       geometry_((options.check(model, start.configuration.box), start.configuration.box), options.buffer, options.slice),
       fluid_(std::move(start)),
-      faces_{{{model, geometry_, 0, options.faces, options.isa}, {model, geometry_, 1, options.faces, options.isa}}},
+      faces_{{{model, geometry_, 0, options.faces, options.isa, options.threads},
+              {model, geometry_, 1, options.faces, options.isa, options.threads}}},
       sampler_(geometry_, model.species.front().mass) {}
 
 std::array<BesideBuffer, 2> OpenSlab::beside_buffers() const {
@@ -121,6 +122,7 @@ FlowOutcome OpenSlab::advance() {
   if (exchanges_ % (couplings_per_sort * options_.exchanges_per_coupling) == 0) sort_in_space(fluid_);
   if (!demands_) set_outside(*outside_);
   reports_ = {};
+  for (FaceExchange& face : faces_) face.forget_insertions();
   std::array<BesideBuffer, 2> beside = beside_buffers();
   for (std::uint64_t k = 0; k < options_.exchanges_per_coupling; ++k)
     if (pass_interval(beside, k == 0) != FlowOutcome::followed) return outcome_;
@@ -144,7 +146,6 @@ FlowOutcome OpenSlab::pass_interval(std::array<BesideBuffer, 2>& beside, bool wi
 }
 
 void OpenSlab::keep_balance(Interval& interval) {
-  balance_.time = time();
   balance_.now = {static_cast<double>(fluid_.configuration.size()),
                   interval.verlet.potential_energy() + interval.verlet.kinetic_energy(),
                   momentum_of(fluid_, model_->species.front().mass)};

@@ -37,7 +37,6 @@ struct FlowBalance {
     double particles = 0.0, energy = 0.0;  // energy: kinetic and of pairs [epsilon]
     Point momentum{};
   };
-  double time = 0.0;
   Content start, now, passed;
   std::array<FaceExchange::Counts, 2> faces{};
 
@@ -71,8 +70,8 @@ class OpenSlab {
   const FlowBalance& balance() const { return balance_; }
   const Outside::Demands& demands() const { return *demands_; }  // once there was a step
   const Outside::Reports& reports() const { return reports_; }   // of the last interval between calls of the outside
-  std::vector<FlowInsertion> take_insertions(std::size_t face) { return faces_[face].take_insertions(); }
-
+  // At a face, likewise.
+  const std::vector<FlowInsertion>& insertions(std::size_t face) const { return faces_[face].insertions(); }
   double coupling_time() const { return static_cast<double>(options_.exchanges_per_coupling) * interval_time(); }
 
   // Between two calls of advance(), of a slab that has taken steps; the outside is part of it.

@@ -16,7 +16,7 @@ struct SlabGeometry {
 
   double slice_width() const { return length / static_cast<double>(slices); }
   double slice_middle(std::size_t slice) const { return (static_cast<double>(slice) + 0.5) * slice_width(); }
-  // The slice that x lies in; what has left counts in the last one.
+  // The slice that x lies in; what has left counts in that at its face.
   std::size_t slice_of(double x) const;
   // How far x lies in the buffer of face 0 (x = 0) or 1 (x = L), in widths of it: 1 at the face, more beyond; 0 or less outside.
   double depth(std::size_t face, double x) const;

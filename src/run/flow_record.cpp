@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 
 #include "run/flow_run.hpp"
 
@@ -39,17 +40,16 @@ class Reader {
   const double* next_;
 };
 
-constexpr std::size_t numbers_of_row = 1 + 2 * 5 + 2 * 4 + 4;
+constexpr std::size_t numbers_of_row = 1 + 2 * 5 + 2 * 3 + 4;
 
 FlowRow row_of(Reader numbers, const std::vector<double>& x, const FlowBalance::Content& start) {
   FlowRow row;
   row.time = numbers.number();
-  row.balance.time = row.time;
   row.balance.start = start;
   row.balance.now = numbers.content();
   row.balance.passed = numbers.content();
   for (FaceExchange::Counts& counts : row.balance.faces)
-    for (std::uint64_t* count : {&counts.left, &counts.put_in, &counts.taken_out, &counts.evaluations}) *count = numbers.count();
+    for (std::uint64_t* count : {&counts.left, &counts.put_in, &counts.taken_out}) *count = numbers.count();
   for (double& pressure : row.pressure) pressure = numbers.number();
   for (double& flux : row.momentum_flux) flux = numbers.number();
   row.profile.x = x;
@@ -66,7 +66,14 @@ FlowRow row_of(Reader numbers, const std::vector<double>& x, const FlowBalance::
 
 }  // namespace
 
-void FlowRecord::add(OpenSlab& slab, const Outside& outside, double time, bool with_insertions) {
+void FlowRecord::add_insertions(const OpenSlab& slab, double time) {
+  for (std::size_t face = 0; face < 2; ++face)
+    for (const FlowInsertion& one : slab.insertions(face))
+      append(insertions_, {static_cast<double>(face), one.time + (time - slab.time()), one.density,
+                           static_cast<double>(one.evaluations), one.energy, one.distance});
+}
+
+void FlowRecord::add_row(OpenSlab& slab, const Outside& outside, double time) {
   const FlowProfile means = slab.sampler().profile();
   slab.sampler().clear();
   x_ = means.x;
@@ -74,8 +81,7 @@ void FlowRecord::add(OpenSlab& slab, const Outside& outside, double time, bool w
   append(rows_, slab.balance().now);
   append(rows_, slab.balance().passed);
   for (const FaceExchange::Counts& counts : slab.balance().faces)
-    for (const std::uint64_t count : {counts.left, counts.put_in, counts.taken_out, counts.evaluations})
-      rows_.push_back(static_cast<double>(count));
+    for (const std::uint64_t count : {counts.left, counts.put_in, counts.taken_out}) rows_.push_back(static_cast<double>(count));
   append(rows_, {slab.demands()[0].pressure, slab.demands()[1].pressure});
   for (const FaceReport& report : slab.reports())
     rows_.push_back(report.momentum[0] / (slab.geometry().area * slab.coupling_time()));
@@ -85,11 +91,6 @@ void FlowRecord::add(OpenSlab& slab, const Outside& outside, double time, bool w
   const std::vector<OutsideCell> cells = outside.cells();
   outside_.push_back(static_cast<double>(cells.size()));
   for (const OutsideCell& cell : cells) append(outside_, {cell.x, cell.density, cell.velocity, cell.temperature});
-  for (std::size_t face = 0; face < 2; ++face)
-    for (const FlowInsertion& one : slab.take_insertions(face))
-      if (with_insertions)
-        append(insertions_, {static_cast<double>(face), one.time + (time - slab.time()), one.density,
-                             static_cast<double>(one.evaluations), one.energy, one.distance});
 }
 
 void FlowRecord::put_into(FlowResult& result, const FlowBalance::Content& start) const {
@@ -140,6 +141,8 @@ Line line_through(const std::vector<double>& x, const std::vector<double>& y, do
 }
 
 FlowMean mean_of(const std::vector<Line>& lines) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (lines.empty()) return {{none, {}}, {none, {}}};
   std::vector<double> means, slopes;
   const std::size_t blocks = std::min(blocks_of_means, lines.size());
   for (std::size_t b = 0; b < blocks; ++b) {

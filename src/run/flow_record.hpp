@@ -12,8 +12,10 @@ struct FlowResult;
 // The rows and insertions of a flow, as numbers for checkpoints.
 class FlowRecord {
  public:
-  // Closes a row: takes the means since the last one, and the insertions where they are wanted.
-  void add(OpenSlab& slab, const Outside& outside, double time, bool with_insertions);
+  // Those of the slab's last interval between calls of its outside, which ended at `time`.
+  void add_insertions(const OpenSlab& slab, double time);
+  // Closes a row: takes the means since the last one.
+  void add_row(OpenSlab& slab, const Outside& outside, double time);
   void put_into(FlowResult& result, const FlowBalance::Content& start) const;
   void exchange(Archive& archive);
 

@@ -52,7 +52,8 @@ class FlowWork final : public ResumableWork {
     if (intervals_ < thermalized()) slab_->thermalize(options_->temperature, 1.0 - std::exp(-thermal_rate * interval_time()));
     if (slab_->advance() != FlowOutcome::followed) return;
     ++intervals_;
-    if (intervals_ % per_row() == 0) record_.add(*slab_, present_outside(), time(), intervals_ > resting());
+    if (intervals_ > resting()) record_.add_insertions(*slab_, time());
+    if (intervals_ % per_row() == 0) record_.add_row(*slab_, present_outside(), time());
     monitor.progress("flow", static_cast<double>(intervals_), static_cast<double>(resting() + flowing()));
   }
   bool save_due() const override { return intervals_ % intervals_per_checkpoint == 0; }
@@ -207,7 +208,7 @@ void FlowOptions::check(const PairModel& model, const Configuration& start) cons
   if (sampling_steps > flow_steps)
     throw_bad_input(fmt::format("{} sampling steps are not allowed: at most the {} flow steps, of which they are the last",
                                 sampling_steps, flow_steps));
-  for (const auto& [name, value] : {std::pair("velocity", velocity), {"shear", shear}, {"enthalpy", enthalpy}})
+  for (const auto& [name, value] : {std::pair("shear", shear), {"enthalpy", enthalpy}})
     if (!std::isfinite(value)) throw_bad_input(fmt::format("{} {} is not allowed: it must be finite", name, value));
   for (const auto& [name, value] :
        {std::pair("mass flux", mass_flux.value_or(0.0)), {"impedance", impedance}, {"velocity", velocity}})

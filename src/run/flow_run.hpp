@@ -18,12 +18,13 @@ namespace lanescape {
 // A fluid that flows through a slab with open faces ([U] IV.B, figure 4): it is equilibrated in a periodic box, rests between the
 // open faces, and then follows its outside.
 struct FlowOptions {
-  double temperature = 2.5;                   // of the start, and of an outside that does not change
-  std::uint64_t equilibration_steps = 4'000;  // in a periodic box, with a thermostat in their first half
-  std::uint64_t resting_steps = 5'000;        // between open faces, without flow
-  std::uint64_t flow_steps = 50'000;          // with the outside
-  std::uint64_t sampling_steps = 25'000;      // the last of these, over which means are taken
-  std::uint64_t row_steps = 250;              // of a row of the record
+  double temperature = 2.5;  // of the start, and of an outside that does not change
+  std::uint64_t equilibration_steps =
+      4'000;                            // in a periodic box, with a thermostat; pressure and energy are those of their second half
+  std::uint64_t resting_steps = 5'000;  // between open faces, without flow
+  std::uint64_t flow_steps = 50'000;    // with the outside
+  std::uint64_t sampling_steps = 25'000;  // the last of these, over which means are taken
+  std::uint64_t row_steps = 250;          // of a row of the record
   // Of an outside that does not change.
   double velocity = 0.3;            // along x
   std::optional<double> pressure;   // none: that of the equilibrated fluid

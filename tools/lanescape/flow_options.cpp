@@ -32,7 +32,7 @@ void add_slab_options(FlowSetup& setup, Options& options) {
 }
 
 void add_step_options(FlowOptions& flow, Options& options) {
-  options.add("--equilibration-steps", flow.equilibration_steps, "in a periodic box, with a thermostat in their first half");
+  options.add("--equilibration-steps", flow.equilibration_steps, "in a periodic box, with a thermostat");
   options.add("--resting-steps", flow.resting_steps, "between the open faces, before the flow");
   options.add("--flow-steps", flow.flow_steps, "of the flow");
   options.add("--sampling-steps", flow.sampling_steps, "the last of these, over which means are taken");
@@ -122,7 +122,7 @@ FlowOptions FlowSetup::resolve_flow(const PairModel& model, const Configuration&
   with.enthalpy_kind = enthalpy == "fluid" ? Enthalpy::of_fluid : enthalpy == "free" ? Enthalpy::free : Enthalpy::number;
   if (with.enthalpy_kind == Enthalpy::number) with.enthalpy = number_of(enthalpy, "--enthalpy");
   with.slab.isa = isa;
-  with.slab.threads = with.slab.faces.threads = common.threads;
+  with.slab.threads = common.threads;
   with.slab.faces.insertion = insertion.resolve(common.seed);
   with.slab.faces.removal = parse_removal_rule(removal);
   check_cutoff(model, start.box);

@@ -27,7 +27,7 @@ class FaceExchangeTest : public ::testing::TestWithParam<std::size_t> {
   SlabGeometry geometry{fluid.configuration.box, 4.0, 2.0};
 
   FaceExchange face(const FaceExchangeOptions& options = testing::slab_options().faces) {
-    return {model, geometry, GetParam(), options, choose_isa("auto")};
+    return {model, geometry, GetParam(), options, choose_isa("auto"), 1};
   }
   double into_slab() const { return GetParam() == 0 ? 1.0 : -1.0; }
   // What the report says is what the slab has gained.
@@ -55,11 +55,13 @@ TEST_P(FaceExchangeTest, PutsInAndTakesOutWhatTheMassFluxAsksForAndAccountsForIt
   EXPECT_EQ(exchange.counts().put_in, 3u);
   EXPECT_EQ(exchange.counts().taken_out, 4u);
   EXPECT_EQ(exchange.counts().left, 0u);
-  for (const FlowInsertion& one : exchange.take_insertions()) {
+  for (const FlowInsertion& one : exchange.insertions()) {
     EXPECT_NEAR(one.energy, -2.5, 0.25);
     EXPECT_GE(one.evaluations, 1u);
   }
-  EXPECT_TRUE(exchange.take_insertions().empty());
+  EXPECT_EQ(exchange.insertions().size(), 3u);
+  exchange.forget_insertions();
+  EXPECT_TRUE(exchange.insertions().empty());
 }
 
 TEST_P(FaceExchangeTest, TakesOutWhatHasLeftAndReplacesIt) {

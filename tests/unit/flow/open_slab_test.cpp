@@ -46,7 +46,7 @@ TEST(OpenSlab, ThreadsAndInterruptionsChangeNoBit) {
   ConstantOutside outside = flowing(0.3), other = flowing(0.3), third = flowing(0.3);
   OpenSlab whole(model, start, testing::slab_options(), outside);
   OpenSlabOptions threads = testing::slab_options();
-  threads.threads = threads.faces.threads = 2;
+  threads.threads = 2;
   OpenSlab first(model, start, threads, other);
   for (int k = 0; k < 4; ++k) {
     whole.advance();
