@@ -182,3 +182,16 @@ class InterruptionTest(ProgramTest):
             resumed = self.done(subcommand, "--resume", out)
         self.assertEqual(without_seconds(resumed), without_seconds(one_object((whole / "result.json").read_text())))
         self.assertEqual(contents(out), contents(whole))
+
+    def assert_survives_interruption_and_kill(self, *arguments, checkpoint):
+        """Ends the run early by a signal, and by a kill once it has a checkpoint: both resume to what it is as a whole."""
+        whole, cut, killed = (self.folder / name for name in ("whole", "cut", "killed"))
+        self.done(*arguments, "--out", whole)
+        result = self.interrupt(*arguments, out=cut, after=checkpoint, with_signal=signal.SIGTERM, seconds=0.0)
+        self.assertEqual(result["outcome"], "interrupted")
+        self.assert_resumes_to(cut, whole, arguments[0], times=2)
+        process = self.start(*arguments, out=killed)
+        self.wait_for(process, killed / checkpoint)
+        process.kill()
+        process.wait()
+        self.assert_resumes_to(killed, whole, arguments[0])

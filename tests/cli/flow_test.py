@@ -1,7 +1,6 @@
 """Flow through a slab with open faces: what is written, drawn, refused and resumed."""
 
 import csv
-import signal
 import unittest
 
 from cli_support import InterruptionTest
@@ -68,16 +67,7 @@ class Flow(InterruptionTest):
         self.assertTrue((folder / "last.extxyz").exists())
 
     def test_interrupted_and_killed_runs_resume_to_the_same_bits(self):
-        whole, cut, killed = (self.folder / name for name in ("whole", "cut", "killed"))
-        self.done(*LONG, "--out", whole)
-        result = self.interrupt(*LONG, out=cut, after="checkpoint/flow.h5", with_signal=signal.SIGTERM, seconds=0.0)
-        self.assertEqual(result["outcome"], "interrupted")
-        self.assert_resumes_to(cut, whole, "flow", times=2)
-        process = self.start(*LONG, out=killed)
-        self.wait_for(process, killed / "checkpoint" / "flow.h5")
-        process.kill()
-        process.wait()
-        self.assert_resumes_to(killed, whole, "flow")
+        self.assert_survives_interruption_and_kill(*LONG, checkpoint="checkpoint/flow.h5")
 
 
 if __name__ == "__main__":

@@ -1,7 +1,6 @@
 """Profiles of a slab: what is written, drawn, refused and resumed."""
 
 import csv
-import signal
 import unittest
 
 from cli_support import EXAMPLES, InterruptionTest
@@ -32,16 +31,7 @@ class Slab(InterruptionTest):
         self.refused_cleanly("slab", "--particles", "100000", says="do not fit")
 
     def test_interrupted_and_killed_runs_resume_to_the_same_bits(self):
-        whole, cut, killed = (self.folder / name for name in ("whole", "cut", "killed"))
-        self.done(*LONG, "--out", whole)
-        result = self.interrupt(*LONG, out=cut, after="checkpoint/slab.h5", with_signal=signal.SIGTERM, seconds=0.0)
-        self.assertEqual(result["outcome"], "interrupted")
-        self.assert_resumes_to(cut, whole, "slab", times=2)
-        process = self.start(*LONG, out=killed)
-        self.wait_for(process, killed / "checkpoint" / "slab.h5")
-        process.kill()
-        process.wait()
-        self.assert_resumes_to(killed, whole, "slab")
+        self.assert_survives_interruption_and_kill(*LONG, checkpoint="checkpoint/slab.h5")
 
 
 if __name__ == "__main__":
