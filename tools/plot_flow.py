@@ -1,5 +1,7 @@
 """The figures of `lanescape flow` for tools/plot.py: flow.png, flow-profiles.png, flow-balance.png, flow-insertions.png and wave.png."""
 
+import warnings
+
 import numpy as np
 
 from plot_style import BLUE, DENSITY, GREEN, GREY, ORANGE, PURPLE, SKY_BLUE, VERMILLION, letter, plt, read_table, save
@@ -44,7 +46,7 @@ def draw_history(folder, times, x, values, run):
             panel.plot(times, np.nanmean(values[name][:, inside], axis=1), color="black", label="mean")
         panel.set_ylabel(dict(QUANTITIES)[name])
         panel.axvline(0.0, color=GREY, linewidth=0.8)
-        letter(panel, tag)
+        letter(panel, f"({tag}) {name}")
     if "velocity" in run:
         panels[2].axhline(float(run["velocity"]), color=GREY, linestyle=":")
     panels[2].set_xlabel(TIME)
@@ -58,7 +60,8 @@ def draw_profiles(folder, times, x, values, run):
     figure, panels = plt.subplots(2, 2, sharex=True, figsize=(11.0, 7.5), layout="constrained")
     buffer = float(run.get("buffer", 0.0))
     for panel, (name, label), colour in zip(panels.flat, QUANTITIES, COLOURS):
-        with np.errstate(all="ignore"):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RuntimeWarning)  # slices without a number
             rows = values[name][last]
             mean, error = np.nanmean(rows, axis=0), np.nanstd(rows, axis=0) / np.sqrt(max(1, len(rows)))
         panel.errorbar(x, mean, error, color=colour, marker="o", markersize=3, linewidth=1.0)
@@ -75,15 +78,16 @@ def draw_balance(folder, balance):
     figure, panels = plt.subplots(3, 1, sharex=True, figsize=(8.5, 9.0), layout="constrained")
     panels[0].plot(balance["time"], balance["particles"], color=BLUE)
     panels[0].set_ylabel("particles")
-    panels[1].plot(balance["time"], balance["energy_error"], color=VERMILLION)
+    flowing = balance["time"] > 0.0  # before, a thermostat is at work
+    panels[1].plot(balance["time"][flowing], balance["energy_error"][flowing], color=VERMILLION)
     panels[1].set_ylabel("energy stored less passed,\nper particle" + r" $[\epsilon]$")
     panels[2].plot(balance["time"], balance["momentum"], color=GREEN, label="stored")
-    panels[2].plot(balance["time"], balance["momentum"] - balance["momentum_error"], color="black", linestyle=":", label="passed the faces")
+    panels[2].plot(balance["time"], balance["momentum"] - balance["momentum_error"], color="black", linestyle=":", label="at the start, and what passed the faces")
     panels[2].set_ylabel(r"momentum along $x$")
     panels[2].set_xlabel(TIME)
     panels[2].legend()
-    for panel, tag in zip(panels, "abc"):
-        letter(panel, tag)
+    for panel, text in zip(panels, ("(a) particles", "(b) error of the energy", "(c) momentum along x")):
+        letter(panel, text)
     save(figure, folder / "flow-balance.png")
 
 

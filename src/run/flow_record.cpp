@@ -40,12 +40,12 @@ class Reader {
   const double* next_;
 };
 
-constexpr std::size_t numbers_of_row = 1 + 2 * 5 + 2 * 3 + 4;
+constexpr std::size_t numbers_of_row = 1 + 3 * 5 + 2 * 3 + 4;
 
-FlowRow row_of(Reader numbers, const std::vector<double>& x, const FlowBalance::Content& start) {
+FlowRow row_of(Reader numbers, const std::vector<double>& x) {
   FlowRow row;
   row.time = numbers.number();
-  row.balance.start = start;
+  row.balance.start = numbers.content();
   row.balance.now = numbers.content();
   row.balance.passed = numbers.content();
   for (FaceExchange::Counts& counts : row.balance.faces)
@@ -78,6 +78,7 @@ void FlowRecord::add_row(OpenSlab& slab, const Outside& outside, double time) {
   slab.sampler().clear();
   x_ = means.x;
   rows_.push_back(time);
+  append(rows_, slab.balance().start);
   append(rows_, slab.balance().now);
   append(rows_, slab.balance().passed);
   for (const FaceExchange::Counts& counts : slab.balance().faces)
@@ -93,10 +94,9 @@ void FlowRecord::add_row(OpenSlab& slab, const Outside& outside, double time) {
   for (const OutsideCell& cell : cells) append(outside_, {cell.x, cell.density, cell.velocity, cell.temperature});
 }
 
-void FlowRecord::put_into(FlowResult& result, const FlowBalance::Content& start) const {
+void FlowRecord::put_into(FlowResult& result) const {
   const std::size_t numbers = numbers_of_row + numbers_of_slice * x_.size();
-  for (std::size_t k = 0; k + numbers <= rows_.size(); k += numbers)
-    result.rows.push_back(row_of(Reader(rows_.data() + k), x_, start));
+  for (std::size_t k = 0; k + numbers <= rows_.size(); k += numbers) result.rows.push_back(row_of(Reader(rows_.data() + k), x_));
   Reader outside(outside_.data());
   for (FlowRow& row : result.rows)
     for (std::uint64_t left = outside.count(); left > 0; --left) {

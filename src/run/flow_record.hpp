@@ -16,7 +16,7 @@ class FlowRecord {
   void add_insertions(const OpenSlab& slab, double time);
   // Closes a row: takes the means since the last one.
   void add_row(OpenSlab& slab, const Outside& outside, double time);
-  void put_into(FlowResult& result, const FlowBalance::Content& start) const;
+  void put_into(FlowResult& result) const;
   void exchange(Archive& archive);
 
  private:

@@ -79,7 +79,7 @@ class FlowWork final : public ResumableWork {
     result.last = slab_ ? slab_->fluid() : fluid_;
     if (!slab_) return result;
     result.outcome = slab_->outcome();
-    record_.put_into(result, slab_->balance().start);
+    record_.put_into(result);
     const double sampled = static_cast<double>(options_->sampling_steps) * options_->slab.time_step,
                  end = static_cast<double>(flowing()) * interval_time();
     const double margin = std::max(options_->slab.buffer, options_->slab.faces.farthest);
