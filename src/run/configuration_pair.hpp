@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "configuration/configuration.hpp"
@@ -11,10 +12,11 @@ namespace lanescape {
 // One pair of end points as its user sees it: both ends unwrapped, in the user's order.
 struct ConfigurationPair {
   Configuration start, finish;
-  double distance = 0.0;       // [sigma]
-  std::uint64_t steps = 0;     // of molecular dynamics between the two, or collisions; 0 if not known
-  double time = 0.0;           // likewise
-  double radius_factor = 1.0;  // by which radii of a file were scaled, where its rounding made spheres overlap
+  double distance = 0.0;                // [sigma]
+  std::uint64_t steps = 0;              // of molecular dynamics between the two, or collisions; 0 if not known
+  double time = 0.0;                    // likewise
+  double radius_factor = 1.0;           // by which radii of a file were scaled, where its rounding made spheres overlap
+  std::optional<double> temperature{};  // of the liquid that soft ends are taken from [epsilon/k_B], where known
 };
 
 // Throws Error(bad_input) where the ends of a pair differ in box, composition or radii, coincide or overlap; the message starts

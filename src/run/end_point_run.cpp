@@ -204,6 +204,7 @@ EndPointRunResult run_end_points(const AnyModel& model, const Configuration& sta
       summarise(work, interrupted, start, layout,
                 {"step", "time", "temperature", "potential_energy_per_particle", "energy_per_particle", "phase"});
   result.temperature = work.generator().mean_temperature();
+  for (ConfigurationPair& pair : result.pairs) pair.temperature = options.temperature;
   return result;
 }
 

@@ -99,6 +99,16 @@ class Paths(ProgramTest):
         self.assertEqual((self.folder / "made" / "pair-0001.extxyz").read_bytes(), Path(pair).read_bytes())
         self.assertIsNone(given["standard_error"])
 
+    def test_pairs_tell_the_temperature_of_their_liquid_and_copies_keep_it(self):
+        [pair] = self.make_pairs("ends")
+        told = f"temperature={FLUID[FLUID.index('--temperature') + 1]}"
+        self.done("path", *ARGON, "--pair", pair, "--out", self.folder / "copied")
+        for file in (Path(pair), self.folder / "copied" / "pair-0001.extxyz"):
+            self.assertEqual([told in line for line in file.read_text().splitlines() if "Lattice" in line], [True, True])
+        for other in ("temperature=hot", "temperature=-1", "temperature=nan", ""):
+            foreign = self.file("foreign.extxyz", Path(pair).read_text().replace(told, other))
+            self.done("path", *ARGON, "--pair", foreign)
+
     def test_wrapped_end_points_cause_one_line_of_warning(self):
         wrapped = self.file("wrapped.xyz", frame("Ar 0.2 0 0", "Ar 2 2 2") + frame("Ar 3.8 0 0", "Ar 2 2 2"))
         unwrapped = self.file("unwrapped.xyz", frame("Ar 0.2 0 0", "Ar 2 2 2") + frame("Ar -0.2 0 0", "Ar 2 2 2"))

@@ -169,6 +169,7 @@ void write_pair(OutputFolder& folder, std::size_t number, const ConfigurationPai
     std::map<std::string, std::string> info{{"distance", fmt::format("{}", pair.distance)},
                                             {"steps", fmt::format("{}", pair.steps)}};
     if (pair.radius_factor != 1.0) info[radius_factor_key] = fmt::format("{}", pair.radius_factor);
+    if (pair.temperature) info[temperature_key] = fmt::format("{}", *pair.temperature);
     info["end"] = "first";
     write_frame(out, pair.start, model, info);
     info["end"] = "last";

@@ -66,6 +66,8 @@ EndPoints make_end_points(const AnyModel& model, const Configuration& start, con
 
 // In the comment line of a kept pair whose radii were scaled.
 inline constexpr const char* radius_factor_key = "radius_factor";
+// In the comment lines of pairs of soft particles: the temperature of the liquid, where it is known.
+inline constexpr const char* temperature_key = "temperature";
 // "pair-0001.extxyz"
 std::string pair_file_name(std::size_t number);
 void write_pair(OutputFolder& folder, std::size_t number, const ConfigurationPair& pair, const Mixture& model);

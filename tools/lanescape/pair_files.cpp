@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -28,6 +29,18 @@ void scale_radii(ConfigurationPair& pair, double tolerance, const std::string& w
   }
 }
 
+// What the writer of a pair says of its liquid; other programs may mean something else by this word, so that what is no temperature
+// counts as nothing.
+std::optional<double> told_temperature(const Frame& frame) {
+  const auto found = frame.info.find(temperature_key);
+  if (found == frame.info.end()) return {};
+  const char* end = found->second.data() + found->second.size();
+  double temperature = 0.0;
+  const auto [stop, status] = std::from_chars(found->second.data(), end, temperature);
+  if (status != std::errc() || stop != end || !std::isfinite(temperature) || !(temperature > 0.0)) return {};
+  return temperature;
+}
+
 // The factor of scale_radii() when the pair was kept.
 double kept_radius_factor(const std::filesystem::path& file, const AnyModel& model) {
   const auto info = ExtendedXyzReader(file, mixture_of(model)).next()->info;
@@ -41,7 +54,9 @@ ConfigurationPair read_pair(const std::filesystem::path& file, const AnyModel& m
   const bool hard = is_hard(model);
   ExtendedXyzReader reader(file, mixture_of(model), traits_of(model).sizes);
   ConfigurationPair pair;
-  pair.start = reader.next()->configuration;
+  Frame first = *reader.next();
+  pair.start = std::move(first.configuration);
+  if (!hard) pair.temperature = told_temperature(first);
   std::optional<Frame> second = reader.next();
   if (!second || reader.another_begins())
     throw_bad_input(fmt::format("{}: holds {}: a pair of end points is two frames", file.string(),
