@@ -258,6 +258,20 @@ def draw_hole_lines(panels, table, energies, colours):
             axes.plot(rows["density"], rows[key], color=colour, marker="o", linestyle="-")
 
 
+def draw_best_steps(axes, scan):
+    """The step of `descent` with the fewest evaluations at each density, as squares. Returns their legend entry."""
+    if scan is None:
+        return []
+    scan = rows_where(scan, one_per_density(scan) & (scan["method"] == "descent") & np.isfinite(scan["evaluations"]))
+    if len(set(scan["largest_step"])) < LARGEST_STEPS_FROM:
+        return []
+    style = {"color": METHOD_COLOURS["descent"], "linestyle": "", "marker": "s", "markersize": 11, "markerfacecolor": "none"}
+    for density in sorted(set(scan["density"])):
+        rows = rows_where(scan, scan["density"] == density)
+        axes.plot(density, step_size(rows["largest_step"][np.argmin(rows["evaluations"])], density), **style)
+    return [Line2D([], [], label="best step of descent", **style)]
+
+
 def draw_guides(axes, densities):
     """The default largest step and the mean free path for comparison, as wide light lines. Returns their legend entries."""
     low, high = densities.min(), densities.max()
@@ -286,8 +300,9 @@ def label_holes(panels, table):
         axes.set_xlabel(DENSITY)
 
 
-def draw_holes(folder, table, system):
-    """Regions of low energy against density, into insertion-holes.png. Nothing is drawn if none were found."""
+def draw_holes(folder, table, system, scan=None):
+    """Regions of low energy against density, into insertion-holes.png. Nothing is drawn if none were found.
+    The best steps of the reference scheme in a scan are squares among their sizes, as in [U]'s figure 7."""
     table = rows_where(table, table["holes"] > 0)
     table = rows_where(table, one_per_density(table))
     if len(table["density"]) == 0:
@@ -296,7 +311,7 @@ def draw_holes(folder, table, system):
     energies = sorted(set(table["iso_energy"]))
     colours = [colour for colour, _ in PAIR_STYLES] if len(energies) <= len(PAIR_STYLES) else shades(len(energies))
     draw_hole_lines(panels, table, energies, colours)
-    guides = draw_guides(panels[0, 0], table["density"])
+    guides = draw_guides(panels[0, 0], table["density"]) + draw_best_steps(panels[0, 0], scan)
     label_holes(panels, table)
     figure.align_ylabels(panels)
     handles = [Line2D([], [], color=colour, label=rf"surface at ${energy:g}\,\epsilon$") for colour, energy in zip(colours, energies)]
@@ -344,6 +359,7 @@ def draw_insertion(folder, tables, result, run):
     if "scan" in tables and len(tables["scan"]["density"]) > 0:
         for draw in (draw_cost, draw_distances, draw_steps):
             draw(folder, tables["scan"], system)
-    for name, draw in (("holes", draw_holes), ("errors", draw_errors)):
-        if name in tables:
-            draw(folder, tables[name], system)
+    if "holes" in tables:
+        draw_holes(folder, tables["holes"], system, tables.get("scan"))
+    if "errors" in tables:
+        draw_errors(folder, tables["errors"], system)

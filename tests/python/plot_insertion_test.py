@@ -67,6 +67,18 @@ class PlotInsertion(PlotTest):
         self.write("errors.csv", "density,error,next_error", error_rows())
         self.assert_draws("insertion-holes.png", "insertion-errors.png")
 
+    def test_squares_among_the_holes_are_the_steps_of_descent_with_the_fewest_evaluations(self):
+        rows = [row for rho in (0.4, 0.8) for step, cost in ((0.05, 20), (0.1, 9), (0.2, 12), ("default", 15))
+                for row in scan_rows([(rho, 2.5)], steps=(step,), evaluations=cost)]
+        self.write("scan.csv", SCAN_HEADER, rows)
+        self.write("holes.csv", HOLES_HEADER, hole_rows())
+        self.assert_draws("insertion-cost.png", "insertion-distance.png", "insertion-step.png", "insertion-holes.png")
+        _, axes = plot_insertion.plt.subplots()
+        plot_insertion.draw_best_steps(axes, plot_insertion.read_insertion(self.folder)["scan"])
+        squares = [(line.get_marker(), *line.get_xdata(), *line.get_ydata()) for line in axes.lines]
+        self.assertEqual(squares, [("s", 0.4, 0.1), ("s", 0.8, 0.1)])
+        plot_insertion.plt.close()
+
     def test_growth_gives_its_figure_with_and_without_equations_of_state(self):
         self.write("densification.csv", GROWTH_HEADER, growth_rows())
         self.assert_draws("densification.png")
