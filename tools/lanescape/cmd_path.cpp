@@ -137,7 +137,6 @@ Ends take_ends(const PathState& state, const AnyModel& model, PathInput&& input,
     return {std::move(made.run.pairs), std::move(made.json), made.reached, made.run.interrupted};
   }
   if (!state.common.resume.empty()) return {read_kept_pairs(folder, model, state.setup.overlap_tolerance()), Json(), true};
-  for (std::size_t k = 0; k < input.pairs.size(); ++k) write_pair(folder, k, input.pairs[k], mixture_of(model));
   return {std::move(input.pairs), Json(), true};
 }
 
@@ -195,8 +194,12 @@ Json run_path(PathState& state, Options& options, int& status) {
 
   if (state.plot) check_plots();
   OutputFolder folder = open_folder(state.common);
+  // Before the run file, from which on the folder can be resumed.
+  for (std::size_t k = 0; k < input.pairs.size(); ++k) {
+    warn_if_wrapped(state.common, state.pair_files[k], input.pairs[k]);
+    write_pair(folder, k, input.pairs[k], mixture_of(model));
+  }
   folder.write_run_file("path", options.resolved());
-  for (std::size_t k = 0; k < input.pairs.size(); ++k) warn_if_wrapped(state.common, state.pair_files[k], input.pairs[k]);
   Ends ends = take_ends(state, model, std::move(input), path_options.precision, isa, folder);
   Json result;
   if (!ends.json.is_null()) result["endpoints"] = std::move(ends.json);

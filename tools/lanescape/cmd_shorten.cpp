@@ -192,11 +192,11 @@ Json run_shortening(ShortenState& state, Options& options, int& status) {
 
   if (state.plot) check_plots();
   OutputFolder folder = open_folder(state.common);
-  folder.write_run_file("shorten", options.resolved());
   if (state.common.resume.empty()) {
     warn_if_wrapped(state.common, state.pair_file, input.pair);
-    keep_input(folder, input, mixture_of(model));
+    keep_input(folder, input, mixture_of(model));  // before the run file, from which on the folder can be resumed
   }
+  folder.write_run_file("shorten", options.resolved());
   TerminalMonitor monitor(state.common.quiet);
   const ShortenResult shortened = run_shorten(model, input.pair, input.nodes, shorten_options, isa,
                                               {folder.checkpoints(), !state.common.resume.empty()}, monitor);
