@@ -4,7 +4,7 @@ set -eu
 
 packages="
   g++ gfortran cmake ninja-build pkg-config
-  libxsimd-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libhdf5-dev librandom123-dev libkissfft-dev
+  libxsimd-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libhdf5-dev zlib1g-dev librandom123-dev libkissfft-dev
   libeigen3-dev
   libgtest-dev libbenchmark-dev valgrind
   lammps liblammps-dev libkim-api-dev mpi-default-bin mpi-default-dev

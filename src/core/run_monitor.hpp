@@ -11,6 +11,8 @@ class RunMonitor {
   virtual ~RunMonitor() = default;
   // `done` of `total` units of the named stage; total is 0 if unknown.
   virtual void progress(std::string_view stage, double done, double total) = 0;
+  // What users should know of a run that goes on, in one line.
+  virtual void notice(std::string_view) {}
   // True if the run must end at the next whole step.
   virtual bool stop_requested() const = 0;
 };

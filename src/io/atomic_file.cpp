@@ -54,12 +54,24 @@ struct Created {
 
 constexpr std::string_view temporary_prefix = ".lanescape-", temporary_suffix = ".tmp";
 
+fs::path temporary_name(const fs::path& folder) {
+  static std::atomic<unsigned> counter{0};
+  return folder / fmt::format("{}{}-{}{}", temporary_prefix, ::getpid(), counter++, temporary_suffix);
+}
+
+// Gives a file a second name, in one step. A second link to the same file has no moment without a whole file under the first name.
+void keep_beside(const fs::path& file, const fs::path& name) {
+  const fs::path link = temporary_name(folder_of(name));
+  if (::link(file.c_str(), link.c_str()) != 0) return;  // no such file yet, or no links here: nothing is kept
+  static_cast<void>(::rename(link.c_str(), name.c_str()));
+  ::unlink(link.c_str());  // still there where both are links to one file already: rename then does nothing
+}
+
 // Exclusive creation: another process, or the remains of one that was killed, keeps its own file. The usual mode and umask
 // apply, which mkstemp would not give.
 Created create_in(const fs::path& folder) {
-  static std::atomic<unsigned> counter{0};
   for (;;) {
-    fs::path candidate = folder / fmt::format("{}{}-{}{}", temporary_prefix, ::getpid(), counter++, temporary_suffix);
+    fs::path candidate = temporary_name(folder);
     const Descriptor descriptor(::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (descriptor.valid()) return {std::move(candidate), 0};
     if (errno != EEXIST) return {{}, errno};
@@ -92,8 +104,9 @@ void TemporaryFile::write(const std::function<void(std::ostream&)>& writer) {
   if (!out) refuse_writing(target_, errno != 0 ? reason(errno) : "the stream failed");
 }
 
-void TemporaryFile::commit() {
+void TemporaryFile::commit(const fs::path& old_as) {
   sync_to_disk(temporary_, O_WRONLY, target_);
+  if (!old_as.empty()) keep_beside(target_, old_as);
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) refuse_writing(target_, reason(errno));
   committed_ = true;
   sync_to_disk(folder_of(target_), O_RDONLY | O_DIRECTORY, target_);

@@ -18,8 +18,9 @@ class TemporaryFile {
   const std::filesystem::path& path() const { return temporary_; }
   // Writes through a stream; throws if any of it did not reach the system.
   void write(const std::function<void(std::ostream&)>& writer);
-  // Content to disk, rename, folder entry to disk.
-  void commit();
+  // Content to disk, rename, folder entry to disk. With a name for it the old file stays beside the new one, where the file system
+  // has hard links.
+  void commit(const std::filesystem::path& old_as = {});
 
  private:
   std::filesystem::path target_;

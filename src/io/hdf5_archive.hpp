@@ -12,7 +12,8 @@
 namespace lanescape {
 
 // A state as an HDF5 file: groups are HDF5 groups, fields are datasets of little-endian 64-bit numbers or fixed-length
-// strings, and every byte is covered by a checksum. The library is not thread-safe; all archives share one lock.
+// strings, and every byte is covered by a checksum. A trailer (io/whole_file.hpp) shows that a file is whole before the library
+// parses it. The library is not thread-safe; all archives share one lock.
 
 // Nothing is seen under the path until commit(). The file is built in memory: a full disk is then met by our own write, where
 // it can be reported, and not inside the library, which can neither close nor forget a file that it failed to write.
@@ -33,8 +34,9 @@ class Hdf5Writer final : public Archive {
   void enter(std::string_view group) override;
   void leave() override;
 
-  // Writes, syncs and renames; the old file, if any, is replaced in one step. Ends the archive.
-  void commit();
+  // Writes, syncs and renames; the old file, if any, is replaced in one step, and keeps the other name if one is given. Ends the
+  // archive.
+  void commit(const std::filesystem::path& old_as = {});
 
  private:
   struct Impl;

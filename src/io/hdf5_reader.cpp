@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <system_error>
 
 #include "core/error.hpp"
 #include "io/hdf5_archive.hpp"
 #include "io/hdf5_handles.hpp"
+#include "io/whole_file.hpp"
 
 namespace lanescape {
 
@@ -19,17 +19,10 @@ struct Hdf5Reader::Impl {
   }
 
   void open() {
-    std::error_code error;
-    const auto status = std::filesystem::status(path_, error);
-    if (!std::filesystem::exists(status))
-      throw_bad_input(fmt::format("{}: there is no such file: an HDF5 archive is needed", path_));
-    if (!std::filesystem::is_regular_file(status))
-      throw_bad_input(fmt::format("{}: it is no regular file: an HDF5 archive is needed", path_));
+    if (const auto fault = fault_of_file(path_)) throw_bad_input(fmt::format("{}: {}: a whole archive is needed", path_, *fault));
     const Handle access = file_access();
     file_ = Handle(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose);
-    if (!file_.valid())
-      throw_bad_input(
-          fmt::format("{}: it cannot be read as HDF5, or is cut short or damaged: a whole, readable archive is needed", path_));
+    if (!file_.valid()) throw_bad_input(fmt::format("{}: it is whole, but cannot be read as HDF5: an archive is needed", path_));
     check_version();
   }
 

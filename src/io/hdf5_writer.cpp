@@ -6,6 +6,7 @@
 #include "io/atomic_file.hpp"
 #include "io/hdf5_archive.hpp"
 #include "io/hdf5_handles.hpp"
+#include "io/whole_file.hpp"
 
 namespace lanescape {
 
@@ -183,7 +184,7 @@ void Hdf5Writer::leave() {
   impl_->groups_.pop();
 }
 
-void Hdf5Writer::commit() {
+void Hdf5Writer::commit(const std::filesystem::path& old_as) {
   std::size_t size = 0;
   {
     const Session session;
@@ -192,8 +193,9 @@ void Hdf5Writer::commit() {
       throw_misuse(fmt::format("{}: commit() inside group {}", impl_->path_, impl_->groups_.path_of("")));
     size = impl_->finish();
   }
-  impl_->temporary_.write([&](std::ostream& out) { out.write(impl_->memory_.data(), static_cast<std::streamsize>(size)); });
-  impl_->temporary_.commit();
+  const std::string_view content(impl_->memory_.data(), size);
+  impl_->temporary_.write([&](std::ostream& out) { out << content << trailer_of(content); });
+  impl_->temporary_.commit(old_as);
 }
 
 }  // namespace lanescape

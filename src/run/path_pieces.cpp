@@ -17,6 +17,7 @@ class PieceMonitor final : public RunMonitor {
   void progress(std::string_view stage, double done, double) override {
     monitor_->progress(stage, (static_cast<double>(piece_) + done) / static_cast<double>(pieces_), 1.0);
   }
+  void notice(std::string_view line) override { monitor_->notice(line); }
   bool stop_requested() const override { return monitor_->stop_requested(); }
 
  private:

@@ -24,6 +24,7 @@ class SharedProgress {
     for (const auto& d : done_) sum += d;
     monitor_->progress(stage_, sum, total_);
   }
+  void notice(std::string_view line) { monitor_->notice(line); }
   bool stop_requested() const { return monitor_->stop_requested(); }
 
  private:
@@ -39,6 +40,7 @@ class PartMonitor final : public RunMonitor {
   PartMonitor(SharedProgress& progress, std::size_t part, double offset, double share)
       : progress_(&progress), part_(part), offset_(offset), share_(share) {}
   void progress(std::string_view, double done, double) override { progress_->report(part_, offset_ + share_ * done); }
+  void notice(std::string_view line) override { progress_->notice(line); }
   bool stop_requested() const override { return progress_->stop_requested(); }
 
  private:

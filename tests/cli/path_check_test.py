@@ -3,10 +3,17 @@
 import math
 import struct
 import unittest
+import zlib
 
 from cli_support import ARGON, DATA, HEADER, SPHERE_HEADER, InterruptionTest, frame, one_object
 
 WHOLE = DATA / "two_spheres_path.h5"  # 201 nodes of the geodesic from 3 to 3 diameters at 170 degrees, chords of the arc
+
+
+def with_trailer(content):
+    """As docs/FORMATS.md describes it."""
+    end = b"lanescape check\n" + struct.pack("<QI", len(content), 1)
+    return content + end + struct.pack("<I", zlib.crc32(content + end))
 
 
 def geodesic(a, b, angle, fraction):
@@ -98,6 +105,8 @@ class PathCheck(InterruptionTest):
         at = whole.index(struct.pack("<d", 4.5))  # the first coordinate
         self.refused_cleanly("shorten", "--check", self.file("bad.h5", whole[:at] + bytes([whole[at] ^ 1]) + whole[at + 1:]), says="bad.h5")
         self.refused_cleanly("shorten", "--check", self.folder / "none.h5", says="none.h5")
+        self.refused_cleanly("shorten", "--check", self.file("bare.h5", whole[:-32]), says=("bare.h5", "checksum"))
+        self.done("shorten", "--check", self.file("made.h5", with_trailer(whole[:-32])))
         points = path(3, 3, 170, 5)
         self.refused_cleanly(*self.HARD, self.file("two.xyz", spheres(points[:2])), says=("two.xyz", "at least 3"))
         self.refused_cleanly(*self.HARD, self.file("nan.xyz", spheres(points).replace("6 0.5", "nan 0.5", 1)), says="nan.xyz")

@@ -45,7 +45,7 @@ class ResumeOrStart(InterruptionTest):
             (folder / ".lanescape-1-0.tmp").write_text("half")
         self.done(*LONG_ENDS, INTO, out)
         self.assertEqual(contents(out), contents(whole))
-        self.assertEqual([file.name for file in (out / "checkpoint").iterdir()], ["endpoints.h5"])
+        self.assertLessEqual({file.name for file in (out / "checkpoint").iterdir()}, {"endpoints.h5", "endpoints.h5.previous"})
 
     def test_a_folder_with_no_run_starts_one(self):
         for prepare in (lambda folder: None, lambda folder: folder.mkdir(), lambda folder: (folder / "checkpoint").mkdir(parents=True)):

@@ -4,7 +4,7 @@ import signal
 import unittest
 from pathlib import Path
 
-from cli_support import DATA, ARGON, TINY, FLUID, GROWTH, SCAN, InterruptionTest, contents, with_options, without_seconds
+from cli_support import DATA, ARGON, TINY, FLUID, GROWTH, SCAN, InterruptionTest, contents, lanescape, with_options, without_seconds
 
 
 class Resuming(InterruptionTest):
@@ -120,10 +120,19 @@ class Resuming(InterruptionTest):
         out = self.folder / "run"
         self.done("endpoints", *ARGON, *TINY, "--out", out)
         checkpoint = out / "checkpoint" / "endpoints.h5"
-        damaged = checkpoint.read_bytes()[:5000]
-        checkpoint.write_bytes(damaged)
-        self.refused("endpoints", "--resume", out, says="endpoints.h5")
-        self.assertEqual(checkpoint.read_bytes(), damaged)
+        older = out / "checkpoint" / "endpoints.h5.previous"
+        older.unlink(missing_ok=True)
+        before, whole = contents(out), checkpoint.read_bytes()
+        for damaged in (b"", whole[:5000], whole[:-1], whole + b"x", whole[:9000] + b"?" + whole[9001:], whole[:-32]):
+            checkpoint.write_bytes(damaged)
+            self.refused("endpoints", "--resume", out, says="endpoints.h5")
+            self.assertEqual(checkpoint.read_bytes(), damaged)
+        older.write_bytes(whole)
+        done = lanescape("endpoints", "--resume", out)
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("endpoints.h5: it does not end with a checksum", done.stderr)
+        self.assertIn("; the state saved before it is used\n", done.stderr)
+        self.assertEqual(contents(out), before)
 
 
 if __name__ == "__main__":

@@ -41,6 +41,7 @@ class TemporaryFolder {
   }
   std::filesystem::path file(std::string_view name, std::string_view content) const {
     const auto path = path_ / name;
+    std::filesystem::remove(path);  // ext4 waits for the disk where a file that is there is written anew
     std::ofstream(path, std::ios::binary) << content;
     return path;
   }

@@ -110,10 +110,12 @@ class TerminalMonitor final : public RunMonitor {
   explicit TerminalMonitor(bool quiet);
   ~TerminalMonitor() override;
   void progress(std::string_view stage, double done, double total) override;
+  void notice(std::string_view line) override;
   bool stop_requested() const override;
 
  private:
   struct Bar;
+  bool quiet_;
   std::unique_ptr<Bar> bar_;
 };
 

@@ -68,7 +68,7 @@ struct TerminalMonitor::Bar {
   }
 };
 
-TerminalMonitor::TerminalMonitor(bool quiet) {
+TerminalMonitor::TerminalMonitor(bool quiet) : quiet_(quiet) {
   if (!quiet && isatty(STDERR_FILENO)) bar_ = std::make_unique<Bar>();
 }
 
@@ -78,6 +78,10 @@ TerminalMonitor::~TerminalMonitor() {
 
 void TerminalMonitor::progress(std::string_view stage, double done, double total) {
   if (bar_) bar_->draw(stage, done, total);
+}
+
+void TerminalMonitor::notice(std::string_view line) {
+  if (!quiet_) std::cerr << (bar_ ? "\r\033[K" : "") << line << std::endl;
 }
 
 bool TerminalMonitor::stop_requested() const { return stop_signal != 0; }

@@ -64,6 +64,27 @@ TEST(AtomicFile, AFullDiskLeavesTheOldContentAndNoTemporary) {
   EXPECT_EQ(folder.entries(), 1u);
 }
 
+TEST(AtomicFile, TheOldContentStaysUnderAnotherNameAndNothingElseDoes) {
+  const TemporaryFolder folder;
+  const auto target = folder.path() / "file", old = folder.path() / "old";
+  for (const char* content : {"first", "second", "third"}) {
+    TemporaryFile file(target);
+    file.write([&](std::ostream& out) { out << content; });
+    file.commit(old);
+    EXPECT_EQ(content_of(target), content);
+  }
+  EXPECT_EQ(content_of(old), "second");
+  // As a kill leaves them between the two renames.
+  std::filesystem::remove(old);
+  std::filesystem::create_hard_link(target, old);
+  TemporaryFile file(target);
+  file.write(write_new);
+  file.commit(old);
+  EXPECT_EQ(content_of(old), "third");
+  EXPECT_EQ(content_of(target), "new");
+  EXPECT_EQ(folder.entries(), 2u);
+}
+
 TEST(AtomicFile, TheUsualPermissionsApply) {
   const TemporaryFolder folder;
   const mode_t before = ::umask(0027);

@@ -6,11 +6,14 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <limits>
+#include <random>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "io/whole_file.hpp"
 #include "test_files.hpp"
 
 #if defined(__has_feature)
@@ -93,6 +96,15 @@ void write(State state, const std::filesystem::path& path) {
   writer.commit();
 }
 
+// Ends a file that another program has changed with its checksum, so that HDF5 gets to see it.
+std::filesystem::path with_trailer(const std::filesystem::path& path) {
+  std::string content = content_of(path);
+  content += trailer_of(content);
+  std::filesystem::remove(path);
+  std::ofstream(path, std::ios::binary) << content;
+  return path;
+}
+
 State read(const std::filesystem::path& path) {
   Hdf5Reader reader(path);
   State state;
@@ -149,6 +161,21 @@ TEST(Hdf5Archive, NothingIsSeenBeforeCommit) {
   }
   EXPECT_EQ(content_of(path), "old");
   EXPECT_EQ(folder.entries(), 1u);
+}
+
+TEST(Hdf5Archive, TheOldFileKeepsTheOtherNameOfACommit) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "state.h5", old = folder.path() / "state.h5.previous";
+  for (const std::size_t count : {1u, 2u, 3u}) {
+    State state = awkward_state(count);
+    Hdf5Writer writer(path);
+    state.exchange(writer);
+    writer.commit(old);
+    EXPECT_TRUE(read(path) == state);
+    EXPECT_EQ(std::filesystem::exists(old), count > 1);
+  }
+  EXPECT_TRUE(read(old) == awkward_state(2));
+  EXPECT_EQ(folder.entries(), 2u);
 }
 
 TEST(Hdf5Archive, DirectionsAreTold) {
@@ -233,7 +260,7 @@ TEST(Hdf5ArchiveRefusal, ATableIsNoRow) {
   H5Dclose(H5Dcreate2(file, "table", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
   H5Sclose(space);
   H5Fclose(file);
-  Hdf5Reader reader(path);
+  Hdf5Reader reader(with_trailer(path));
   std::vector<double> values;
   expect_contains(refusal([&] { reader.field("table", values); }), path.string() + ": field /table has the wrong shape");
 }
@@ -252,7 +279,7 @@ TEST(Hdf5ArchiveRefusal, AFieldWithoutItsDataIsNamed) {
   H5Pclose(creation);
   H5Sclose(space);
   H5Fclose(file);
-  Hdf5Reader reader(path);
+  Hdf5Reader reader(with_trailer(path));
   std::vector<double> values;
   expect_contains(refusal([&] { reader.field("hollow", values); }), path.string() + ": field /hollow is incomplete");
 }
@@ -264,15 +291,18 @@ TEST(Hdf5ArchiveRefusal, AMissingFileAFolderAndAnotherFormatAreNamed) {
   const auto empty = folder.file("empty.h5", "");
   expect_contains(refusal([&] { Hdf5Reader reader(absent); }), absent.string() + ": there is no such file");
   expect_contains(refusal([&] { Hdf5Reader reader(folder.path()); }), folder.path().string() + ": it is no regular file");
-  expect_contains(refusal([&] { Hdf5Reader reader(text); }), text.string() + ": it cannot be read as HDF5");
-  expect_contains(refusal([&] { Hdf5Reader reader(empty); }), empty.string() + ": it cannot be read as HDF5");
+  expect_contains(refusal([&] { Hdf5Reader reader(text); }), text.string() + ": it does not end with a checksum");
+  expect_contains(refusal([&] { Hdf5Reader reader(empty); }), empty.string() + ": it does not end with a checksum");
+  expect_contains(refusal([&] { Hdf5Reader reader(with_trailer(text)); }),
+                  text.string() + ": it is whole, but cannot be read as HDF5");
 }
 
 TEST(Hdf5ArchiveRefusal, AFileWithoutVersionOrWithAnotherIsNamed) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "state.h5";
   H5Fclose(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
-  expect_contains(refusal([&] { Hdf5Reader reader(path); }), path.string() + ": it has no root attribute format_version");
+  expect_contains(refusal([&] { Hdf5Reader reader(with_trailer(path)); }),
+                  path.string() + ": it has no root attribute format_version");
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
   const hid_t space = H5Screate(H5S_SCALAR);
   const hid_t attribute = H5Acreate2(file, "format_version", H5T_STD_U64LE, space, H5P_DEFAULT, H5P_DEFAULT);
@@ -281,7 +311,8 @@ TEST(Hdf5ArchiveRefusal, AFileWithoutVersionOrWithAnotherIsNamed) {
   H5Aclose(attribute);
   H5Sclose(space);
   H5Fclose(file);
-  expect_contains(refusal([&] { Hdf5Reader reader(path); }), path.string() + ": format_version is 2: only 1 is allowed");
+  expect_contains(refusal([&] { Hdf5Reader reader(with_trailer(path)); }),
+                  path.string() + ": format_version is 2: only 1 is allowed");
 }
 
 TEST(Hdf5ArchiveRefusal, AFileCutShortAnywhereIsNamed) {
@@ -294,8 +325,24 @@ TEST(Hdf5ArchiveRefusal, AFileCutShortAnywhereIsNamed) {
   }
 }
 
-// A change of unused bytes may stay unnoticed, but a read must never return other values.
-TEST(Hdf5ArchiveRefusal, ADamagedFileNeverGivesOtherValues) {
+// Random bytes from every region of the file, and several at a time.
+TEST(Hdf5ArchiveRefusal, AFileChangedAnywhereIsRefused) {
+  const TemporaryFolder folder;
+  write(awkward_state(1100), folder.path() / "whole.h5");
+  const std::string whole = content_of(folder.path() / "whole.h5");
+  std::mt19937_64 random(7);
+  for (int change = 0; change < 1000; ++change) {
+    std::string damaged = whole;
+    for (std::uint64_t k = 0; k <= random() % 4; ++k) damaged[random() % whole.size()] ^= static_cast<char>(1 + random() % 255);
+    if (damaged == whole) continue;
+    const auto path = folder.file("damaged.h5", damaged);
+    expect_contains(refusal([&] { read(path); }), path.string() + ": it");
+  }
+}
+
+// Under a checksum that was made after the damage HDF5 sees it. A change of unused bytes may stay unnoticed, but a read must never
+// return other values.
+TEST(Hdf5ArchiveRefusal, DamageUnderAValidTrailerNeverGivesOtherValues) {
   const TemporaryFolder folder;
   const State state = awkward_state(1100);
   write(state, folder.path() / "whole.h5");
@@ -304,7 +351,7 @@ TEST(Hdf5ArchiveRefusal, ADamagedFileNeverGivesOtherValues) {
   for (std::size_t at = 0; at < whole.size(); at += at < 4096 ? 1 : 37) {
     std::string damaged = whole;
     damaged[at] = static_cast<char>(damaged[at] ^ (1 << at % 8));
-    const auto path = folder.file("damaged.h5", damaged);
+    const auto path = with_trailer(folder.file("damaged.h5", damaged));
     ++tried;
     try {
       EXPECT_TRUE(read(path) == state) << "byte " << at;
@@ -325,7 +372,7 @@ TEST(Hdf5ArchiveRefusalDeathTest, ADamagedHeaderLeavesTheExitSilent) {
     write(awkward_state(10), folder.path() / "whole.h5");
     std::string content = content_of(folder.path() / "whole.h5");
     content[64] = static_cast<char>(content[64] ^ 1);
-    const auto path = folder.file("damaged.h5", content);
+    const auto path = with_trailer(folder.file("damaged.h5", content));
     expect_contains(refusal([&] { read(path); }), path.string());
   };
   EXPECT_EXIT((read_damaged(), std::exit(0)), ::testing::ExitedWithCode(0), "^$");
@@ -343,7 +390,7 @@ TEST(Hdf5ArchiveRefusal, DamagedDataAreNamedByTheirField) {
   const std::size_t at = content.find(pattern + pattern);
   ASSERT_NE(at, std::string::npos);
   content[at + 100] = static_cast<char>(content[at + 100] ^ 1);
-  folder.file("state.h5", content);
+  with_trailer(folder.file("state.h5", content));
   expect_contains(refusal([&] { read(path); }), path.string() + ": field /dynamics/particles/positions cannot be read");
 }
 

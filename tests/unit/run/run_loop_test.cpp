@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "stopping_monitor.hpp"
@@ -36,7 +39,7 @@ TEST(RunLoop, DoesTheWorkToItsEndAndKeepsItsState) {
   Counting work(10);
   EXPECT_FALSE(run_to_end(work, "count.h5", {folder.path(), false}, silent));
   EXPECT_EQ(work.count(), 10U);
-  EXPECT_EQ(folder.entries(), 1U);
+  EXPECT_EQ(folder.entries(), 2U);  // the last state and the one before
   Counting again(10);
   EXPECT_FALSE(run_to_end(again, "count.h5", {folder.path(), true}, silent));
   EXPECT_EQ(again.count(), 10U);
@@ -78,7 +81,60 @@ TEST(RunLoop, StartsAnewUnlessAskedToResumeAndKeepsNothingWithoutAFolder) {
   EXPECT_EQ(second.chunks(), 4U);
   run_to_end(third, "count.h5", {}, silent);
   EXPECT_EQ(third.chunks(), 4U);
-  EXPECT_EQ(folder.entries(), 1U);
+  EXPECT_EQ(folder.entries(), 2U);
+}
+
+// Resumes a count to 10 that saved its state at 4, 8 and 10.
+class DamagedState : public ::testing::Test {
+ protected:
+  void SetUp() override { run_to_end(first_, "count.h5", {folder_.path(), false}, monitor_); }
+  void resume() { run_to_end(resumed_, "count.h5", {folder_.path(), true}, monitor_); }
+  void damage(const char* name) const {
+    const std::string content = testing::content_of(folder_.path() / name);
+    folder_.file(name, content.substr(0, content.size() / 2));
+  }
+
+  struct Noting final : RunMonitor {
+    void progress(std::string_view, double, double) override {}
+    void notice(std::string_view line) override { notices.emplace_back(line); }
+    bool stop_requested() const override { return false; }
+    std::vector<std::string> notices;
+  };
+  const testing::TemporaryFolder folder_;
+  Noting monitor_;
+  Counting first_{10}, resumed_{10};
+};
+
+TEST_F(DamagedState, GivesWayToTheOneBeforeWithANotice) {
+  damage("count.h5");
+  resume();
+  EXPECT_EQ(resumed_.count(), 10U);
+  EXPECT_EQ(resumed_.chunks(), 2U);
+  ASSERT_EQ(monitor_.notices.size(), 1U);
+  testing::expect_contains(monitor_.notices[0], "count.h5: it does not end with a checksum");
+  testing::expect_contains(monitor_.notices[0], "the state saved before it is used");
+}
+
+TEST_F(DamagedState, IsReplacedWhereItIsLost) {
+  std::filesystem::remove(folder_.path() / "count.h5");
+  resume();
+  EXPECT_EQ(resumed_.chunks(), 2U);
+}
+
+TEST_F(DamagedState, IsRefusedAndKeptWhereTheOneBeforeIsDamagedToo) {
+  damage("count.h5");
+  damage("count.h5.previous");
+  const std::string content = testing::content_of(folder_.path() / "count.h5");
+  testing::expect_contains(testing::refusal([&] { resume(); }), "count.h5: it does not end with a checksum");
+  EXPECT_EQ(testing::content_of(folder_.path() / "count.h5"), content);
+  EXPECT_TRUE(monitor_.notices.empty());
+}
+
+TEST_F(DamagedState, BeforeAWholeOneIsIgnored) {
+  damage("count.h5.previous");
+  resume();
+  EXPECT_EQ(resumed_.chunks(), 0U);
+  EXPECT_TRUE(monitor_.notices.empty());
 }
 
 }  // namespace
