@@ -16,7 +16,8 @@ enum class RandomStream : std::uint32_t {
   langevin = 7,
   diameters = 8,
   shortening = 9,
-  flow = 10
+  flow = 10,
+  bootstrap = 11
 };
 
 // Counter-based random numbers (Philox4x32-10, Salmon et al., SC 2011, doi 10.1145/2063384.2063405): each is a function of

@@ -4,12 +4,22 @@
 #include <cmath>
 
 namespace lanescape {
+namespace {
+
+// The bin of a value in units of the bin's width, (0, 1], (1, 2], ... Steps of one and the same length for c particles have n = c
+// but for rounding, so that n and 3 N/n may lie on an edge.
+std::size_t bin_of(double value, std::size_t bins) {
+  const auto bin = static_cast<std::size_t>(std::max(0.0, std::ceil(value - 1e-6) - 1.0));
+  return std::min(bin, bins - 1);
+}
+
+}  // namespace
 
 PathStatistics::PathStatistics(std::size_t slots, std::size_t particles, Stepping stepping)
     : particles_(static_cast<double>(particles)),
       stepping_(stepping),
       participation_(particles, 0.0),
-      alpha2_(alpha2_bins, 0.0),
+      alpha2_(3 * particles, 0.0),  // 0.6 N over the width of a bin
       particle_lengths_(slots, 0.0) {}
 
 double PathStatistics::add_displacement(const VectorAlgebra& algebra, const AlignedArray& from, const AlignedArray& to) {
@@ -26,11 +36,8 @@ double PathStatistics::add_displacement(const VectorAlgebra& algebra, const Alig
 double PathStatistics::add_step(const VectorAlgebra& algebra, const AlignedArray& from, const AlignedArray& to) {
   const double length = add_displacement(algebra, from, to);
   const double weight = stepping_ == Stepping::adaptive ? length : 1.0;
-  const double alpha2 = 0.6 * particles_ / last_participation_ - 1.0;
-  // Steps of one and the same length for c particles have n = c but for rounding.
-  const auto bin = static_cast<std::size_t>(std::max(0.0, std::ceil(last_participation_ - 1e-6) - 1.0));
-  participation_[std::min(bin, participation_.size() - 1)] += weight;
-  alpha2_[std::min(static_cast<std::size_t>((alpha2 + 1.0) / alpha2_width), alpha2_bins - 1)] += weight;
+  participation_[bin_of(last_participation_, participation_.size())] += weight;
+  alpha2_[bin_of(0.6 * particles_ / (last_participation_ * alpha2_width), alpha2_.size())] += weight;
   return length;
 }
 

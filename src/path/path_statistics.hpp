@@ -14,8 +14,8 @@ namespace lanescape {
 // Sums along a path, in constant memory.
 class PathStatistics {
  public:
-  // n/N has a bin for each whole n, of width 1 up to n itself; alpha_2 starts at -1, its last bin is open.
-  static constexpr std::size_t alpha2_bins = 400;
+  // n/N has a bin for each whole n, of width 1 up to n itself. alpha_2 + 1 = 0.6 N/n has bins of this width, upper edges included,
+  // up to 0.6 N at n = 1: steps of n = 2, 3 and 4 particles have a bin each, at any N.
   static constexpr double alpha2_width = 0.2;
 
   PathStatistics(std::size_t slots, std::size_t particles, Stepping stepping = Stepping::faithful);

@@ -20,7 +20,7 @@ if len(sys.argv) < 3:
 PROGRAM, DATA = str(Path(sys.argv.pop(1)).resolve()), Path(sys.argv.pop(1)).resolve()
 EXAMPLES = Path(__file__).resolve().parents[2] / "docs" / "examples"
 
-SUBCOMMANDS = ("info", "energy", "overlap", "endpoints", "path", "shorten", "diffusion", "insert", "flow", "slab", "verify", "cases", "check")
+SUBCOMMANDS = ("info", "energy", "overlap", "endpoints", "path", "shorten", "diffusion", "insert", "flow", "slab", "analyze", "verify", "cases", "check")
 COMMON_OPTIONS = ("--help", "--seed", "--threads", "--isa", "--quiet", "--config", "--out", "--resume", "--resume-or-start")
 
 # A liquid small and short enough for a test. Eight particles with the nearest image take 10^6 steps in half a second.

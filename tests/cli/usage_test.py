@@ -29,7 +29,6 @@ class Usage(ProgramTest):
         for subcommand in SUBCOMMANDS:
             text = lanescape(subcommand, "--help").stdout
             self.assertNotIn("swap", text, subcommand)
-        self.refused("analyze", says="analyze")
         self.refused("energy", self.file("two.xyz", frame(*TWO)), "--model", "water", says=("water", "kob-andersen", "ucg"))
 
     def test_version_is_printed(self):

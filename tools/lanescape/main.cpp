@@ -39,8 +39,8 @@ int run(const std::vector<std::string>& arguments) {
       "Exit status: 0 done, 1 the goal was not reached or figures failed, 2 bad input, 3 a defect,\n"
       "4 interrupted by SIGINT or SIGTERM: --resume continues.");
   const std::vector<Subcommand> subcommands = {
-      add_info(app),   add_energy(app), add_overlap(app), add_endpoints(app), add_path(app),  add_shorten(app), add_diffusion(app),
-      add_insert(app), add_flow(app),   add_slab(app),    add_verify(app),    add_cases(app), add_check(app)};
+      add_info(app),   add_energy(app), add_overlap(app), add_endpoints(app), add_path(app),   add_shorten(app), add_diffusion(app),
+      add_insert(app), add_flow(app),   add_slab(app),    add_analyze(app),   add_verify(app), add_cases(app),   add_check(app)};
   try {
     CommandLine line = with_run_file(arguments, app);
     // CLI11 takes arguments in reverse.

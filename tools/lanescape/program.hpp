@@ -100,6 +100,7 @@ Subcommand add_shorten(CLI::App& app);
 Subcommand add_diffusion(CLI::App& app);
 Subcommand add_insert(CLI::App& app);
 Subcommand add_slab(CLI::App& app);
+Subcommand add_analyze(CLI::App& app);
 Subcommand add_verify(CLI::App& app);
 Subcommand add_cases(CLI::App& app);
 Subcommand add_check(CLI::App& app);

@@ -7,8 +7,8 @@ namespace lanescape::program {
 namespace {
 
 // JSON has no number for what is not defined, tables have.
-std::string text_of(const Json& value) {
-  if (value.is_null()) return "nan";
+std::string text_of(const Json& value, const std::string& missing) {
+  if (value.is_null()) return missing;
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
@@ -24,7 +24,7 @@ Json to_json(const ResultTable& table) {
   return json;
 }
 
-void write_table(OutputFolder& folder, const std::string& name, const ResultTable& table) {
+void write_table(OutputFolder& folder, const std::string& name, const ResultTable& table, const std::string& missing) {
   if (table.empty()) return;
   folder.write(name, [&](std::ostream& out) {
     const char* comma = "";
@@ -32,8 +32,7 @@ void write_table(OutputFolder& folder, const std::string& name, const ResultTabl
     out << '\n';
     for (const ResultRow& row : table) {
       comma = "";
-      for (const auto& [column, value] : row)
-        out << std::exchange(comma, ",") << text_of(value);
+      for (const auto& [column, value] : row) out << std::exchange(comma, ",") << text_of(value, missing);
       out << '\n';
     }
   });

@@ -21,7 +21,7 @@ ResultTable table_of(const Rows& rows, RowOf row_of) {
 
 // A list of objects.
 Json to_json(const ResultTable& table);
-// Comma-separated, with the names in the first line. Writes nothing if there are no rows.
-void write_table(OutputFolder& folder, const std::string& name, const ResultTable& table);
+// Comma-separated, with the names in the first line and `missing` in place of nulls. Writes nothing if there are no rows.
+void write_table(OutputFolder& folder, const std::string& name, const ResultTable& table, const std::string& missing = "nan");
 
 }  // namespace lanescape::program

@@ -88,10 +88,37 @@ TEST(PathStatistics, TheAlphaTwoOfAStepIsThatOfItsDisplacements) {
   walk.step(statistics, {0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0});
   walk.step(statistics, {1.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0});
   // 1.8/n - 1 for n = 625/337, 2 and 25/17 is -0.03, -0.1 and 0.22; the bins have width 0.2 and start at -1.
-  std::vector<double> expected(PathStatistics::alpha2_bins, 0);
+  std::vector<double> expected(9, 0);
   expected[4] = 2;
   expected[6] = 1;
   EXPECT_EQ(statistics.alpha2_histogram(), expected);
+}
+
+TEST(PathStatistics, StepsOfOneToFourParticlesHaveABinOfAlphaTwoEachAtAnyN) {
+  const VectorAlgebra algebra(kernel_table(choose_isa("auto")));
+  for (std::size_t particles = 12; particles <= 512; ++particles) {
+    const ParticleLayout layout(std::vector<int>(particles, 0), 1);
+    PathStatistics statistics(layout.slots(), particles);
+    std::vector<double> expected(3 * particles, 0.0);
+    for (std::size_t moved = 1; moved <= 4; ++moved) {
+      // As an avoidance step moves them: 1e-4 each, in any direction, from coordinates of several digits.
+      std::vector<double> from(3 * particles), to;
+      for (std::size_t k = 0; k < from.size(); ++k) from[k] = 30.0 * std::sin(1.0 + static_cast<double>(k * moved));
+      to = from;
+      for (std::size_t j = 0; j < moved; ++j) {
+        const double angle = static_cast<double>(particles + 7 * j);
+        to[3 * j] += 1e-4 * std::cos(angle);
+        to[3 * j + 2] += 1e-4 * std::sin(angle);
+      }
+      statistics.add_step(algebra, layout.to_slots(from), layout.to_slots(to));
+      // The bin whose upper edge is 0.6 N/n, or the next one above it.
+      expected[(3 * particles + moved - 1) / moved - 1] += 1.0;
+    }
+    ASSERT_EQ(statistics.alpha2_histogram(), expected) << particles << " particles";
+    const StepHistogram histogram = statistics.histograms().back();
+    EXPECT_NEAR(histogram.first + histogram.width * static_cast<double>(3 * particles - 1),
+                0.6 * static_cast<double>(particles) - 1.0, 1e-9);
+  }
 }
 
 TEST(PathStatistics, AdaptiveStepsCountWithTheirLength) {
