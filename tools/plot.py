@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Draw the figures of a run's folder: tools/plot.py DIR
 
-Reads the files that `lanescape path`, `shorten`, `endpoints`, `diffusion`, `insert`, `flow` and `slab` write into DIR:
+Reads the files that `lanescape path`, `shorten`, `endpoints`, `diffusion`, `insert`, `flow`, `slab` and `analyze` write into DIR:
   result.json               outcome, length, landscape energy, ... of each path (required)
   run.toml                  the target temperature; for insertion also the model and the number of particles (optional)
   path-0001-trace.csv ...   one for each path in result.json
@@ -16,6 +16,7 @@ Reads the files that `lanescape path`, `shorten`, `endpoints`, `diffusion`, `ins
   profiles.csv              density and states of a slab
   flow.csv, balance.csv, insertions.csv            a flow through a slab with open faces
   continuum.csv, alone.csv  the fluid on both sides of it, and the solver without the slab
+  groups.csv, means.csv, distributions.csv, fits.csv, scaling.csv, scaling_points.csv     an analysis of finished runs
   scan.csv, holes.csv, errors.csv     cost of insertion, sizes of holes, convergence of errors
 
 Writes into DIR:
@@ -29,6 +30,9 @@ Writes into DIR:
   relaxation.png      scattering function, mean squared displacement, alpha_2 and chi_4 against the logarithm of time
   equilibration.png   temperature, potential energy, energy drift and radial distribution functions; for hard spheres
                       compressibility, collision rate and radial distribution functions
+  analysis-scaling.png        D beside (DeltaR/g)^2 times one constant, against packing fraction or temperature
+  analysis-fits.png           both with fits that vanish at a critical state, beside published ones
+  analysis-participation.png, analysis-heterogeneity.png, analysis-overlaps.png     distributions over steps and particles of all groups
   densification.png   energy, pressure, temperature and excess energy against density; for the Lennard-Jones model with long-range
                       corrections also three equations of state at constant energy, from the density and temperature of the first row
   profiles.png        density and mean state probabilities along a slab
@@ -51,6 +55,7 @@ Lengths are in sigma, energies in epsilon, temperatures in epsilon/k_B.
 import sys
 from pathlib import Path
 
+from plot_analysis import draw_analysis, read_analysis
 from plot_diffusion import draw_diffusion, read_diffusion
 from plot_equilibration import draw_equilibration, read_equilibration
 from plot_flow import draw_flow, read_flow
@@ -72,6 +77,10 @@ def target_temperature(run):
 def draw_folder(folder):
     """All figures of a folder. All tables are read first: if one is missing or damaged, nothing is drawn."""
     result, run = read_result(folder), read_run_file(folder)
+    analysis = read_analysis(folder)
+    if analysis is not None:
+        draw_analysis(folder, analysis)
+        return
     paths = read_paths(folder, result)
     histograms, ratios = read_histograms(folder, paths), read_particle_ratios(folder, paths)
     equilibration, diffusion, relaxation = read_equilibration(folder), read_diffusion(folder), read_relaxation(folder)

@@ -6,7 +6,9 @@ import math
 import shutil
 import unittest
 
-from cli_support import ARGON, FLUID, ProgramTest, lanescape, one_object
+import numpy
+
+from cli_support import ARGON, FLUID, PROTOCOL, ProgramTest, one_object
 
 SPHERES = ("--model", "hard-sphere-binary")
 FEW = ("--particles", "32", "--distance", "10", "--equilibration-collisions", "20000", "--between-collisions", "1000")
@@ -25,9 +27,9 @@ def standard_error(values):
 
 
 class Analysis(ProgramTest):
-    def path(self, name, packing, seed, pairs=2, *more, size=FEW[:4]):
+    def path(self, name, packing, seed, pairs=2, *more):
         out = self.folder / name
-        self.done("path", *SPHERES, *(size or ("--particles", "64")), *FEW[4:], "--packing-fraction", packing, "--pairs", pairs, "--seed", seed, *more, "--out", out)
+        self.done("path", *SPHERES, *FEW, "--packing-fraction", packing, "--pairs", pairs, "--seed", seed, *more, "--out", out)
         return out
 
     def means(self, out):
@@ -100,11 +102,11 @@ class Pooling(Analysis):
             self.assertGreater(float(pooled[0]["error"]), 0.0)
 
     def test_other_settings_make_other_groups(self):
-        runs = [self.path(word, "0.2", 1, 2, *options, size=())
+        runs = [self.path(word, "0.2", 1, 2, *options)
                 for word, options in (("a", ()), ("b", ("--step", "0.1")), ("c", ("--adaptive",)), ("d", ("--fictitious", "linear")),
                                       ("e", ("--method", "away")))]
         ends = self.folder / "ends"
-        self.done("endpoints", *SPHERES, *FEW[4:], "--particles", "64", "--packing-fraction", "0.2", "--seed", "1", "--pairs", "2", "--out", ends)
+        self.done("endpoints", *SPHERES, *FEW, "--packing-fraction", "0.2", "--seed", "1", "--pairs", "2", "--out", ends)
         # The same pairs from files, and the default of an option that is given.
         given = self.folder / "given"
         self.done("path", *SPHERES, "--pair", ends / "pair-0001.extxyz", ends / "pair-0002.extxyz", "--avoidance-step", "1e-4", "--out", given)
@@ -140,15 +142,33 @@ class Pooling(Analysis):
                                math.hypot(2 * first["diffusion_msd_error"], 3 * second["diffusion_msd_error"]) / 5, places=12)
         self.assertEqual(both["compressibility"]["count"], 2)
 
-    def test_soft_pairs_measure_the_distance_asked_for(self):
+    def test_pairs_from_files_tell_their_state_and_the_distance_asked_for(self):
         pairs = self.make_pairs("pairs", 2)
         runs = []
         for k, pair in enumerate(pairs):
             runs.append(self.folder / f"p{k}")
             self.done("path", *ARGON, "--pair", pair, "--out", runs[-1])
         groups = self.done("analyze", *runs)["groups"]
-        self.assertEqual([(g["distance"], g["paths"], g["particles"], g["density"]) for g in groups], [(5.0, 2, 32, 0.8)])
+        self.assertEqual([(g["distance"], g["paths"], g["particles"], g["density"], g["temperature"]) for g in groups],
+                         [(5.0, 2, 32, 0.8, 1.0)])
         self.assertEqual(groups[0]["images"], "minimum")
+        # Files of others do not tell: pairs that lie within 2 % of each other belong together, at an unknown temperature.
+        for run in runs:
+            pair = run / "pair-0001.extxyz"
+            pair.write_text(pair.read_text().replace("asked_distance=", "other=").replace("temperature=", "another="))
+        groups = self.done("analyze", *runs)["groups"]
+        self.assertEqual([(g["distance"], g["paths"], g["temperature"]) for g in groups], [(5.0, 2, None)])
+
+    def test_pairs_of_one_species_belong_together_however_far_they_are_in_all(self):
+        ends = self.folder / "ends"
+        self.done("endpoints", *SPHERES, *FEW, "--packing-fraction", "0.2", "--pairs", "2", "--distance-species", "Ar", "--out", ends)
+        runs = []
+        for k in (1, 2):
+            runs.append(self.folder / f"p{k}")
+            path = self.done("path", *SPHERES, "--adaptive", "--pair", ends / f"pair-000{k}.extxyz", "--out", runs[-1])["paths"][0]
+            self.assertGreater(path["distance"], 11.0)
+        groups = self.done("analyze", *runs)["groups"]
+        self.assertEqual([(g["distance"], g["distance_species"], g["paths"]) for g in groups], [(10.0, "Ar", 2)])
 
     def test_the_same_bits_come_from_any_number_of_threads_and_order(self):
         runs = [self.path("a", "0.2", 1), self.path("b", "0.2", 2)]
@@ -165,6 +185,75 @@ class Pooling(Analysis):
         self.done("path", *SPHERES, *FEW, "--packing-fraction", "0.3", "--max-steps", "10", "--out", out, status=1)
         group = self.done("analyze", out)["groups"][0]
         self.assertEqual((group["paths"], group["reached"], group["means"]), (1, 0, {}))
+
+
+class Sweeps(Analysis):
+    def sweep(self, packings=("0.1", "0.2", "0.3", "0.4")):
+        runs = []
+        for packing in packings:
+            runs.append(self.path("path" + packing, packing, 1))
+            runs.append(self.folder / ("diffusion" + packing))
+            self.done(*DIFFUSION, "--packing-fraction", packing, "--seed", "3", "--out", runs[-1])
+        return runs
+
+    def test_fits_and_scaling_of_a_sweep_follow_from_its_means(self):
+        runs, out = self.sweep(), self.folder / "out"
+        result = self.done("analyze", *runs, "--free-critical", "--out", out)
+        groups = {g["group"]: g for g in result["groups"]}
+        ratio = {g["packing_fraction"]: g["means"]["ratio_squared"]["mean"] for g in groups.values() if g["kind"] == "path"}
+        diffusion = {g["packing_fraction"]: g["means"]["diffusion_msd_Ar"]["mean"] for g in groups.values() if g["kind"] == "diffusion"}
+        phi = numpy.array(sorted(ratio))
+        y = numpy.log([ratio[x] for x in phi])
+        sweep = "path hard-sphere-binary N32 avoidance step0.01 dR10"
+        fits = {(f["sweep"], f["quantity"], f["form"], f["critical_error"] != ""): f for f in rows_of(out / "fits.csv")}
+        for form, critical, x in (("mode-coupling", 0.59, numpy.log(0.59 - phi)), ("vogel-fulcher-tammann", 0.6122, -1 / (0.6122 - phi)),
+                                  ("berthier-witten", 0.635, -1 / (0.635 - phi) ** 2)):
+            fit = {k: float(v) for k, v in fits[sweep, "ratio_squared", form, False].items() if k not in ("sweep", "quantity", "form", "critical_error", "weighted")}
+            (slope, intercept), covariance = numpy.polyfit(x, y, 1, cov=True)
+            expected = {"points": 4, "from": 0.1, "to": 0.4, "critical": critical, "slope": slope, "intercept": intercept,
+                        "slope_error": covariance[0, 0] ** 0.5, "intercept_error": covariance[1, 1] ** 0.5,
+                        "residual_deviation": (numpy.sum((y - slope * x - intercept) ** 2) / 2) ** 0.5,
+                        "r_squared": 1 - numpy.sum((y - slope * x - intercept) ** 2) / numpy.sum((y - y.mean()) ** 2)}
+            for key, value in expected.items():
+                self.assertAlmostEqual(fit[key], value, delta=1e-8 * max(1, abs(value)), msg=f"{form} {key}")
+        # D of each species, by each way, and (DeltaR/g)^2: held, and free where that has an optimum.
+        self.assertEqual(len([key for key in fits if not key[3]]), 7 * 3)
+        self.assertEqual(len(result["fits"]) + len(result["refused_fits"]), 7 * 3 * 2)
+        rows = rows_of(out / "scaling.csv")
+        self.assertEqual(len(rows), 6)
+        row = next(r for r in rows if r["quantity"] == "diffusion_msd_Ar")
+        constants = [diffusion[x] / ratio[x] for x in phi]
+        logarithms = numpy.log(constants)
+        self.assertAlmostEqual(float(row["constant"]), numpy.mean(constants), places=12)
+        self.assertAlmostEqual(float(row["constant_error"]), standard_error(constants), places=12)
+        self.assertAlmostEqual(float(row["spread"]), numpy.std(logarithms, ddof=1), places=12)
+        (slope, _), covariance = numpy.polyfit(y, numpy.log([diffusion[x] for x in phi]), 1, cov=True)
+        self.assertAlmostEqual(float(row["slope"]), slope, places=9)
+        self.assertAlmostEqual(float(row["slope_error"]), covariance[0, 0] ** 0.5, places=9)
+        points = [p for p in rows_of(out / "scaling_points.csv") if p["quantity"] == "diffusion_msd_Ar"]
+        self.assertEqual([float(p["state"]) for p in points], list(phi))
+        for point, x in zip(points, phi):
+            self.assertAlmostEqual(float(point["scaled"]), numpy.mean(constants) * ratio[x], places=12)
+            self.assertAlmostEqual(float(point["diffusion_over_scaled"]), diffusion[x] / (numpy.mean(constants) * ratio[x]), places=12)
+
+    def test_the_range_the_weights_and_the_critical_value_are_those_asked_for(self):
+        runs = self.sweep()
+        plain = self.done("analyze", *runs)["fits"]
+        ranged = self.done("analyze", *runs, "--fit-range", "0.15,0.5", "--critical-mct", "0.6")["fits"]
+        self.assertTrue(all((f["points"], f["from"], f["to"]) == (3, 0.2, 0.4) and f["adjusted_r_squared"] is None for f in ranged))
+        self.assertEqual({f["critical"] for f in ranged if f["form"] == "mode-coupling"}, {0.6})
+        weighted = self.done("analyze", *runs, "--weighted")["fits"]
+        self.assertTrue(all(f["weighted"] for f in weighted) and not any(f["weighted"] for f in plain))
+        self.assertNotEqual([f["slope"] for f in plain], [f["slope"] for f in weighted])
+        refused = self.done("analyze", *runs, "--critical-mct", "0.4")
+        self.assertEqual({f["form"] for f in refused["fits"]}, {"vogel-fulcher-tammann", "berthier-witten"})
+        self.assertTrue(all("0.4" in f["reason"] for f in refused["refused_fits"]))
+
+    def test_figures_are_drawn_of_what_there_is(self):
+        out = self.folder / "out"
+        self.done("analyze", *self.sweep(("0.2", "0.3", "0.4")), "--out", out, "--plot")
+        for name in ("scaling", "fits", "participation", "heterogeneity", "overlaps"):
+            self.assertEqual((out / f"analysis-{name}.png").read_bytes()[:4], b"\x89PNG", name)
 
 
 class Refusals(Analysis):
@@ -212,6 +301,14 @@ class Refusals(Analysis):
         for value in ("0", "99", "1000001", "x"):
             self.refused_cleanly("analyze", run, "--bootstrap", value, says="--bootstrap")
         self.refused_cleanly("analyze", run, "--threads", "0", says="--threads")
+        for value in ("0.5", "0.6,0.5", "0.5,x", "0.1,0.2,0.3", "0.1,nan"):
+            self.refused_cleanly("analyze", run, "--fit-range", value, says="--fit-range")
+        for value in ("0", "-0.5", "inf"):
+            self.refused_cleanly("analyze", run, "--critical-vft", value, says="critical value")
+        self.refused("analyze", run, "--plot", says="--out")
+        soft = self.folder / "soft"
+        self.done("diffusion", *ARGON, *FLUID[:6], *PROTOCOL[:-2], "--lags", "10", "--records", "20", "--between", "10", "--out", soft)
+        self.refused_cleanly("analyze", run, soft, "--critical-mct", "0.59", says=("several models", "lennard-jones", "hard-sphere-binary"))
 
 
 if __name__ == "__main__":

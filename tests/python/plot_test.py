@@ -56,6 +56,28 @@ class Plot(PlotTest):
         self.write_run([path_summary(), path_summary("step_limit", None)])
         self.assert_draws("path-0001.png", "path-0002.png")
 
+    def write_analysis(self, kind="path"):
+        """Two states with one distribution each."""
+        (self.folder / "result.json").write_text("{}")
+        write_table(self.folder / "groups.csv", "group,kind,model,particles,packing_fraction,temperature,method,stepping,runs,paths,reached",
+                    [f"{kind} x phi{phi},{kind},hard-sphere-binary,108,{phi},,avoidance,faithful,1,2,2" for phi in (0.3, 0.5)])
+        write_table(self.folder / "means.csv", "group,quantity,count,mean,error,low,high",
+                    [f"{kind} x phi{phi},heterogeneity_pooled_Ar,2,0.1,{error},," for phi, error in ((0.3, "0.01"), (0.5, ""))])
+        write_table(self.folder / "distributions.csv", "group,quantity,value,probability,error",
+                    [f"{kind} x phi{phi},{quantity},{0.05 * k},0.25," for phi in (0.3, 0.5)
+                     for quantity in ("log10_length_Ar", "participation_ratio", "alpha_2") for k in (1, 2, 3, 7)])
+
+    def test_an_analysis_gives_the_figures_that_it_has_tables_for(self):
+        self.write_analysis()
+        self.assert_draws("analysis-participation.png", "analysis-heterogeneity.png")
+
+    def test_damaged_tables_of_an_analysis_are_refused(self):
+        for table, old, new in (("means.csv", "mean,error", "meen,error"), ("distributions.csv", "0.25", "x"), ("groups.csv", "group,kind", "group,sort")):
+            self.write_analysis()
+            file = self.folder / table
+            file.write_text(file.read_text().replace(old, new))
+            self.assert_refuses(table)
+
     def test_trials_of_a_shortening_give_a_figure(self):
         (self.folder / "result.json").write_text(json.dumps({"length_before": 20.0, "length": 18.0, "model": "kob-andersen"}))
         write_table(self.folder / "path-0001-trials.csv", "trial,distance_to_goal,length,accepted",

@@ -197,7 +197,7 @@ Json run_path(PathState& state, Options& options, int& status) {
   // Before the run file, from which on the folder can be resumed.
   for (std::size_t k = 0; k < input.pairs.size(); ++k) {
     warn_if_wrapped(state.common, state.pair_files[k], input.pairs[k]);
-    write_pair(folder, k, input.pairs[k], mixture_of(model));
+    write_pair(folder, k, input.pairs[k], mixture_of(model), read_asked_distance(state.pair_files[k]));
   }
   folder.write_run_file("path", options.resolved());
   Ends ends = take_ends(state, model, std::move(input), path_options.precision, isa, folder);

@@ -78,8 +78,8 @@ ShortenInput read_input(const ShortenState& state, const AnyModel& model, const 
   return input;
 }
 
-void keep_input(OutputFolder& folder, const ShortenInput& input, const Mixture& mixture) {
-  write_pair(folder, 0, input.pair, mixture);
+void keep_input(OutputFolder& folder, const ShortenInput& input, const std::string& pair_file, const Mixture& mixture) {
+  write_pair(folder, 0, input.pair, mixture, read_asked_distance(pair_file));
   if (input.nodes.empty()) return;
   folder.write(kept_path, [&](std::ostream& out) {
     for (const Configuration& node : input.nodes) write_frame(out, node, mixture, {});
@@ -194,7 +194,7 @@ Json run_shortening(ShortenState& state, Options& options, int& status) {
   OutputFolder folder = open_folder(state.common);
   if (state.common.resume.empty()) {
     warn_if_wrapped(state.common, state.pair_file, input.pair);
-    keep_input(folder, input, mixture_of(model));  // before the run file, from which on the folder can be resumed
+    keep_input(folder, input, state.pair_file, mixture_of(model));  // before the run file, from which on the folder can be resumed
   }
   folder.write_run_file("shorten", options.resolved());
   TerminalMonitor monitor(state.common.quiet);

@@ -164,12 +164,15 @@ Configuration EndPointSetup::hard_start(const HardSphereModel& hard, const Commo
 
 std::string pair_file_name(std::size_t number) { return fmt::format("pair-{:04}.extxyz", number + 1); }
 
-void write_pair(OutputFolder& folder, std::size_t number, const ConfigurationPair& pair, const Mixture& model) {
+void write_pair(OutputFolder& folder, std::size_t number, const ConfigurationPair& pair, const Mixture& model,
+                const AskedDistance& asked) {
   folder.write(pair_file_name(number), [&](std::ostream& out) {
     std::map<std::string, std::string> info{{"distance", fmt::format("{}", pair.distance)},
                                             {"steps", fmt::format("{}", pair.steps)}};
     if (pair.radius_factor != 1.0) info[radius_factor_key] = fmt::format("{}", pair.radius_factor);
     if (pair.temperature) info[temperature_key] = fmt::format("{}", *pair.temperature);
+    if (asked.distance) info[asked_distance_key] = fmt::format("{}", *asked.distance);
+    if (!asked.species.empty()) info[distance_species_key] = asked.species;
     info["end"] = "first";
     write_frame(out, pair.start, model, info);
     info["end"] = "last";
@@ -219,6 +222,15 @@ EndPointRunResult run_protocol(const AnyModel& model, const Configuration& start
                     model);
 }
 
+AskedDistance asked_distance(const EndPointProtocol& protocol, const Mixture& model) {
+  return std::visit(
+      [&](const auto& options) {
+        const auto& species = options.distance_species;
+        return AskedDistance{options.distance, species ? model.species[static_cast<std::size_t>(*species)].name : std::string()};
+      },
+      protocol);
+}
+
 }  // namespace
 
 EndPoints make_end_points(const AnyModel& model, const Configuration& start, const EndPointProtocol& protocol, Isa isa,
@@ -229,10 +241,11 @@ EndPoints make_end_points(const AnyModel& model, const Configuration& start, con
       Json::object(), false};
   const EndPointRunResult& run = result.run;
   const bool hard = is_hard(model);
+  const AskedDistance asked = asked_distance(protocol, mixture_of(model));
   result.json["pairs"] = Json::array();
   for (std::size_t k = 0; k < run.pairs.size(); ++k) {
     const ConfigurationPair& pair = run.pairs[k];
-    write_pair(folder, k, pair, mixture_of(model));
+    write_pair(folder, k, pair, mixture_of(model), asked);
     result.json["pairs"].push_back({{"file", folder.exists() ? Json((folder.path() / pair_file_name(k)).string()) : Json()},
                                     {"distance", pair.distance},
                                     {hard ? "collisions" : "steps", pair.steps},

@@ -68,8 +68,16 @@ EndPoints make_end_points(const AnyModel& model, const Configuration& start, con
 inline constexpr const char* radius_factor_key = "radius_factor";
 // In the comment lines of pairs of soft particles: the temperature of the liquid, where it is known.
 inline constexpr const char* temperature_key = "temperature";
+// Likewise of all pairs: the distance that was asked for, which theirs exceeds a little, and the one species that counts for it.
+struct AskedDistance {
+  std::optional<double> distance;  // [sigma]
+  std::string species;             // empty: all count
+};
+inline constexpr const char* asked_distance_key = "asked_distance";
+inline constexpr const char* distance_species_key = "distance_species";
 // "pair-0001.extxyz"
 std::string pair_file_name(std::size_t number);
-void write_pair(OutputFolder& folder, std::size_t number, const ConfigurationPair& pair, const Mixture& model);
+void write_pair(OutputFolder& folder, std::size_t number, const ConfigurationPair& pair, const Mixture& model,
+                const AskedDistance& asked);
 
 }  // namespace lanescape::program

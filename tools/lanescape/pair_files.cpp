@@ -29,16 +29,16 @@ void scale_radii(ConfigurationPair& pair, double tolerance, const std::string& w
   }
 }
 
-// What the writer of a pair says of its liquid; other programs may mean something else by this word, so that what is no temperature
+// What the writer of a pair says of it; other programs may mean something else by this word, so that what is no number above 0
 // counts as nothing.
-std::optional<double> told_temperature(const Frame& frame) {
-  const auto found = frame.info.find(temperature_key);
+std::optional<double> told_number(const Frame& frame, const char* key) {
+  const auto found = frame.info.find(key);
   if (found == frame.info.end()) return {};
   const char* end = found->second.data() + found->second.size();
-  double temperature = 0.0;
-  const auto [stop, status] = std::from_chars(found->second.data(), end, temperature);
-  if (status != std::errc() || stop != end || !std::isfinite(temperature) || !(temperature > 0.0)) return {};
-  return temperature;
+  double value = 0.0;
+  const auto [stop, status] = std::from_chars(found->second.data(), end, value);
+  if (status != std::errc() || stop != end || !std::isfinite(value) || !(value > 0.0)) return {};
+  return value;
 }
 
 // The factor of scale_radii() when the pair was kept.
@@ -56,7 +56,7 @@ ConfigurationPair read_pair(const std::filesystem::path& file, const AnyModel& m
   ConfigurationPair pair;
   Frame first = *reader.next();
   pair.start = std::move(first.configuration);
-  if (!hard) pair.temperature = told_temperature(first);
+  if (!hard) pair.temperature = told_number(first, temperature_key);
   std::optional<Frame> second = reader.next();
   if (!second || reader.another_begins())
     throw_bad_input(fmt::format("{}: holds {}: a pair of end points is two frames", file.string(),
@@ -67,6 +67,12 @@ ConfigurationPair read_pair(const std::filesystem::path& file, const AnyModel& m
   for (std::size_t k = 0; k < pair.start.positions.size(); ++k)
     pair.distance = std::hypot(pair.distance, pair.finish.positions[k] - pair.start.positions[k]);
   return pair;
+}
+
+AskedDistance read_asked_distance(const std::filesystem::path& file) {
+  const Frame first = *ExtendedXyzReader(file).next();
+  const auto species = first.info.find(distance_species_key);
+  return {told_number(first, asked_distance_key), species == first.info.end() ? std::string() : species->second};
 }
 
 ConfigurationPair read_kept_pair(const std::filesystem::path& file, const AnyModel& model, double tolerance) {

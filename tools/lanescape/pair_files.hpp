@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "end_point_options.hpp"
 #include "program.hpp"
 #include "run/configuration_pair.hpp"
 
@@ -11,6 +12,8 @@ namespace lanescape::program {
 
 // The two end points of a file, checked. Radii that overlap by rounding, up to the relative tolerance, are scaled.
 ConfigurationPair read_pair(const std::filesystem::path& file, const AnyModel& model, double tolerance);
+// What its writer says was asked of the pair.
+AskedDistance read_asked_distance(const std::filesystem::path& file);
 // A pair that a run keeps in its folder, with radii scaled already.
 ConfigurationPair read_kept_pair(const std::filesystem::path& file, const AnyModel& model, double tolerance);
 // All pairs a resumed run was started with: its folder holds a copy of each.
