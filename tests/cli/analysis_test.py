@@ -308,6 +308,7 @@ class Refusals(Analysis):
         self.refused("analyze", run, "--plot", says="--out")
         soft = self.folder / "soft"
         self.done("diffusion", *ARGON, *FLUID[:6], *PROTOCOL[:-2], "--lags", "10", "--records", "20", "--between", "10", "--out", soft)
+        self.assertEqual(self.done("analyze", soft)["groups"][0]["density"], 0.8)
         self.refused_cleanly("analyze", run, soft, "--critical-mct", "0.59", says=("several models", "lennard-jones", "hard-sphere-binary"))
 
 

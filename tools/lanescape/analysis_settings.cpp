@@ -123,6 +123,7 @@ void take_own_state(Settings& settings, const toml::table& options, const RunJso
     return;
   }
   settings.take_number("density", options, "density");
+  settings.set_rounded("density", result.optional_number("density"));
   settings.take_number("temperature", options, "temperature");
 }
 

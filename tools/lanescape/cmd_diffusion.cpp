@@ -133,7 +133,10 @@ Json run_diffusion_command(DiffusionState& state, Options& options, int& status)
   const bool hard = is_hard(model);
   Json result = to_json(run, model);
   result["model"] = mixture_of(model).name;
-  if (hard) result["packing_fraction"] = packing_fraction(start);
+  if (hard)
+    result["packing_fraction"] = packing_fraction(start);
+  else
+    result["density"] = static_cast<double>(start.size()) / start.box.volume();
   if (state.setup.radius_factor()) result["radius_factor"] = *state.setup.radius_factor();
   result["particles"] = start.size();
   result["isa"] = to_string(isa);
