@@ -149,8 +149,7 @@ def draw_scaling(file, model, sweeps, rows, points):
             scale = column["scaled"] / column["ratio_squared"]
             with_errors(upper, column["state"], column["scaled"], scale * column["ratio_squared_error"], colour, marker,
                         f"{number(row['constant']):.3g} {RATIO}, {short_name(name, names)}", fillstyle="none")
-            with_errors(lower, column["state"], column["diffusion_over_scaled"], column["diffusion_over_scaled_error"], colour, marker, None,
-                        fillstyle="none")
+            draw_quotients(lower, points, (name, diffusion, quantity), colour, marker)
         logarithmic(upper.yaxis)
         lower.axhline(1.0, color=GREY, linewidth=1.0)
         lower.set_xlabel(state_label(sweeps))
@@ -160,6 +159,19 @@ def draw_scaling(file, model, sweeps, rows, points):
     panels[1][0].set_ylabel(f"$D/c${RATIO}")
     title(figure, [MODEL_NAMES.get(model, model), f"$D$ beside {RATIO}"])
     save(figure, file)
+
+
+def draw_quotients(axes, points, key, colour, marker):
+    """D/(c (DeltaR/g)^2); of soft models the same of D/T too, with its own c."""
+    for suffix, fill in (("", "none"), ("/T", "full")):
+        of = [p for p in points if (p["sweep"], p["diffusion_sweep"], p["quantity"]) == (*key[:2], key[2] + suffix)]
+        if of:
+            quotient, error, state = (np.array([number(p[name]) for p in of])
+                                      for name in ("diffusion_over_scaled", "diffusion_over_scaled_error", "state"))
+            with_errors(axes, state, quotient, error, colour, marker, None, fillstyle=fill)
+    if suffix == "/T" and of and not axes.get_legend():
+        axes.legend(handles=[Line2D([], [], color=GREY, marker="o", linestyle="none", fillstyle=fill, label=label)
+                             for fill, label in (("none", "$D$"), ("full", "$D/T$"))], loc="best", fontsize=10)
 
 
 def short_name(name, names):
@@ -176,10 +188,12 @@ def draw_fits(file, model, sweeps, fits):
     rows = [q for q in ("ratio_squared", "diffusion_vacf") if any(f["quantity"].startswith(q) for f in shown)]
     if not rows:
         return
-    figure, panels = plt.subplots(len(rows), 3, figsize=(14.5, 4.8 * len(rows)), squeeze=False, gridspec_kw={"wspace": 0.28, "hspace": 0.45})
+    forms = [form for form in FORMS if any(f["form"] == form for f in shown)]
+    figure, panels = plt.subplots(len(rows), len(forms), figsize=(4.8 * len(forms), 4.8 * len(rows)), squeeze=False, gridspec_kw={"wspace": 0.28, "hspace": 0.45})
     for line, (quantity, of_row) in enumerate(zip(rows, panels)):
         lines = sorted({(f["sweep"], f["quantity"]) for f in shown if f["quantity"].startswith(quantity)})[:len(COLOURS)]
-        for (form, (abscissa, label)), axes in zip(FORMS.items(), of_row):
+        for form, axes in zip(forms, of_row):
+            label = FORMS[form][1]
             draw_form(axes, model, sweeps, [f for f in shown if f["form"] == form], form, lines)
             axes.set_xlabel(label.replace("x", STATE_LABELS[sweeps[0].state].strip("$")) if sweeps[0].state == "packing_fraction"
                             else label.replace("x_c-x", "T-T_c"))
