@@ -14,10 +14,11 @@ COUNTS = ("group", "runs", "paths", "reached")
 COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY_BLUE, GREY)
 MARKERS, LINES = "osD^vPX", ("-", "--", ":", "-.")
 RATIO = r"$(\Delta R/g)^2$"
+SHOWN_DIFFUSION = "diffusion_long_time"  # the least uncertain, and right for coarse intervals too
 STATE_LABELS = {"packing_fraction": r"$\phi$", "temperature": r"$T$"}
 # [G] figures 4.20 to 4.25: slope and intercept of ln y against X of its fits to binary hard spheres from phi = 0.53 to 0.57.
-SOURCE = {("mode-coupling", "ratio_squared"): (1.450393, -1.404044), ("vogel-fulcher-tammann", "diffusion_vacf_Xe"): (0.159643, -2.836295),
-          ("berthier-witten", "diffusion_vacf_Xe"): (0.0125595, -3.653602)}
+SOURCE = {("mode-coupling", "ratio_squared"): (1.450393, -1.404044), ("vogel-fulcher-tammann", "diffusion_long_time_Xe"): (0.159643, -2.836295),
+          ("berthier-witten", "diffusion_long_time_Xe"): (0.0125595, -3.653602)}
 SOURCE_MODEL, SOURCE_FROM, SOURCE_TO = "hard-sphere-binary", 0.53, 0.57
 FORMS = {"mode-coupling": (np.log, "$x_c-x$"), "vogel-fulcher-tammann": (lambda d: -1.0 / d, "$1/(x_c-x)$"),
          "berthier-witten": (lambda d: -1.0 / d**2, "$1/(x_c-x)^2$")}
@@ -128,7 +129,7 @@ def draw_scaling(file, model, sweeps, rows, points):
     wanted = [row for row in rows if not row["quantity"].endswith("/T")]
     pairs = sorted({(row["diffusion_sweep"], row["quantity"]) for row in wanted})
     kinds = {quantity.rsplit("_", 1)[0] for _, quantity in pairs}
-    way = next((kind for kind in ("diffusion_vacf", "diffusion_msd", "diffusion_long_time") if kind in kinds), None)
+    way = next((kind for kind in (SHOWN_DIFFUSION, "diffusion_msd", "diffusion_vacf") if kind in kinds), None)
     pairs = [pair for pair in pairs if pair[1].rsplit("_", 1)[0] == way][:4]
     if not pairs:
         return
@@ -184,8 +185,8 @@ def short_name(name, names):
 # (2) Fits.
 
 def draw_fits(file, model, sweeps, fits):
-    shown = [f for f in fits if f["critical_error"] == "" and (f["quantity"] == "ratio_squared" or f["quantity"].startswith("diffusion_vacf"))]
-    rows = [q for q in ("ratio_squared", "diffusion_vacf") if any(f["quantity"].startswith(q) for f in shown)]
+    shown = [f for f in fits if f["critical_error"] == "" and (f["quantity"] == "ratio_squared" or f["quantity"].startswith(SHOWN_DIFFUSION))]
+    rows = [q for q in ("ratio_squared", SHOWN_DIFFUSION) if any(f["quantity"].startswith(q) for f in shown)]
     if not rows:
         return
     forms = [form for form in FORMS if any(f["form"] == form for f in shown)]
