@@ -256,6 +256,20 @@ class Sweeps(Analysis):
             self.assertEqual((out / f"analysis-{name}.png").read_bytes()[:4], b"\x89PNG", name)
 
 
+    def test_a_search_that_found_nothing_belongs_to_those_that_did(self):
+        ends = self.folder / "ends"
+        self.done("endpoints", *SPHERES, *FEW, "--packing-fraction", "0.2", "--out", ends)
+        runs = [self.folder / "found", self.folder / "failed"]
+        for run, steps, status in zip(runs, ("1000000", "1"), (0, 1)):
+            self.done("shorten", *SPHERES, "--method", "montecarlo", "--pair", ends / "pair-0001.extxyz", "--max-steps", steps, "--out", run,
+                      status=status)
+        for run in runs:  # as runs of others, whose files do not tell what was asked for
+            pair = run / "pair-0001.extxyz"
+            pair.write_text(pair.read_text().replace("asked_distance=", "other="))
+        groups = self.done("analyze", *runs)["groups"]
+        self.assertEqual([(g["paths"], g["reached"]) for g in groups], [(2, 1)])
+
+
 class Refusals(Analysis):
     def test_what_is_no_finished_run_is_refused(self):
         run = self.path("run", "0.2", 1)

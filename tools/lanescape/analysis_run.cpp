@@ -136,6 +136,8 @@ void read_paths(AnalysedRun& run, const RunJson& result) {
 void read_shortened(AnalysedRun& run, const RunJson& result) {
   run.paths = 1;
   run.measured_distance = result.optional_number("distance");
+  if (!run.measured_distance)  // without a path
+    run.measured_distance = read_pair_state(run.folder / "pair-0001.extxyz", false).measured_distance;
   if (result.text("outcome") != "reached") return;
   run.reached = 1;
   Named<double> values = path_values(result, result);

@@ -177,6 +177,7 @@ PairState read_pair_state(const std::filesystem::path& file, bool hard) {
   state.density = static_cast<double>(state.particles) / frame.configuration.box.volume();
   state.temperature = number_in_info(frame, "temperature", file);
   state.distance = number_in_info(frame, "asked_distance", file);
+  state.measured_distance = number_in_info(frame, "distance", file);
   if (const auto found = frame.info.find("distance_species"); found != frame.info.end()) state.distance_species = found->second;
   return state;
 }

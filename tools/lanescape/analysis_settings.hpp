@@ -28,6 +28,7 @@ std::string name_of_settings(const ResultRow& settings, std::span<const std::str
 struct PairState {
   std::size_t particles;
   std::optional<double> density, packing_fraction, temperature, distance;
+  std::optional<double> measured_distance;
   std::optional<std::string> distance_species;
 };
 // From the first end of a pair's file.
