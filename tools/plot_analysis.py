@@ -123,10 +123,15 @@ def state_label(model_sweeps):
     return STATE_LABELS[next((s.state for s in model_sweeps if s.state), "packing_fraction")]
 
 
-# (1) D and c (DeltaR/g)^2 against the state, and their quotient.
+# (1) D and c (DeltaR/g)^2 against the state, and their quotient, of sweeps that go through some states at least.
+
+FEWEST_STATES = 3
+
 
 def draw_scaling(file, model, sweeps, rows, points):
     wanted = [row for row in rows if not row["quantity"].endswith("/T")]
+    fewest = min(FEWEST_STATES, max((int(row["points"]) for row in wanted), default=0))
+    wanted = [row for row in wanted if int(row["points"]) >= fewest]
     pairs = sorted({(row["diffusion_sweep"], row["quantity"]) for row in wanted})
     kinds = {quantity.rsplit("_", 1)[0] for _, quantity in pairs}
     way = next((kind for kind in (SHOWN_DIFFUSION, "diffusion_msd", "diffusion_vacf") if kind in kinds), None)
@@ -146,16 +151,16 @@ def draw_scaling(file, model, sweeps, rows, points):
             if not drawn:
                 with_errors(upper, column["state"], column["diffusion"], column["diffusion_error"], "black", "o", "$D$", zorder=3)
                 drawn = True
-            row = next(r for r in wanted if (r["sweep"], r["diffusion_sweep"], r["quantity"]) == (name, diffusion, quantity))
             scale = column["scaled"] / column["ratio_squared"]
             with_errors(upper, column["state"], column["scaled"], scale * column["ratio_squared_error"], colour, marker,
-                        f"{number(row['constant']):.3g} {RATIO}, {short_name(name, names)}", fillstyle="none")
+                        f"$c\\,${RATIO}, {short_name(name, names)}", fillstyle="none")
             draw_quotients(lower, points, (name, diffusion, quantity), colour, marker)
         logarithmic(upper.yaxis)
         lower.axhline(1.0, color=GREY, linewidth=1.0)
         lower.set_xlabel(state_label(sweeps))
         letter(upper, f"{species_name(quantity.rsplit('_', 1)[1], model)}")
-        upper.legend(loc="best", fontsize=10)
+        draw_legend_of_fills(lower, points, diffusion, quantity)
+    legend_beside(panels[0][-1], panels[0][-1].get_legend_handles_labels()[0])
     panels[0][0].set_ylabel("$D$")
     panels[1][0].set_ylabel(f"$D/c${RATIO}")
     title(figure, [MODEL_NAMES.get(model, model), f"$D$ beside {RATIO}"])
@@ -170,7 +175,11 @@ def draw_quotients(axes, points, key, colour, marker):
             quotient, error, state = (np.array([number(p[name]) for p in of])
                                       for name in ("diffusion_over_scaled", "diffusion_over_scaled_error", "state"))
             with_errors(axes, state, quotient, error, colour, marker, None, fillstyle=fill)
-    if suffix == "/T" and of and not axes.get_legend():
+
+
+def draw_legend_of_fills(axes, points, diffusion, quantity):
+    """Which marks are D and which D/T, where there are both."""
+    if any((p["diffusion_sweep"], p["quantity"]) == (diffusion, quantity + "/T") for p in points):
         axes.legend(handles=[Line2D([], [], color=GREY, marker="o", linestyle="none", fillstyle=fill, label=label)
                              for fill, label in (("none", "$D$"), ("full", "$D/T$"))], loc="best", fontsize=10)
 
@@ -246,18 +255,22 @@ def matches(sweep, name):
 
 # (3) to (5) Distributions over steps and particles: a colour for each state, a kind of line for each sweep.
 
+MOST_SWEEPS = 4  # in one figure: those of the most states; more lines cannot be told apart
+
+
 class Panels:
     """Distributions of all groups of some sweeps, drawn alike in each panel."""
 
     def __init__(self, model, sweeps):
-        self.model, self.sweeps = model, sweeps
+        self.model, self.all = model, sweeps
+        self.sweeps = sweeps if len(sweeps) <= MOST_SWEEPS else sorted(sweeps, key=lambda sweep: -len(sweep.groups))[:MOST_SWEEPS]
         self.states = sorted({x for s in sweeps for x in s.states() if not np.isnan(x)})
         self.colours = dict(zip(self.states, shades(len(self.states))))
 
     def having(self, quantity):
         """The same for the groups with this distribution alone."""
         kept = []
-        for sweep in self.sweeps:
+        for sweep in self.all:
             groups = [g for g in sweep.groups if quantity in g["distributions"]]
             if groups:
                 kept.append(Sweep(sweep.words, groups))

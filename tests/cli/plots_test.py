@@ -33,7 +33,7 @@ class Plots(ProgramTest):
         self.assertFalse(out.parent.exists())
 
     def test_a_moved_program_draws_with_the_scripts_of_its_prefix(self):
-        shutil.copytree(TOOLS, self.script.parent, ignore=shutil.ignore_patterns("lanescape", "validation"))
+        shutil.copytree(TOOLS, self.script.parent, ignore=shutil.ignore_patterns("lanescape"))
         out = self.folder / "out"
         self.assertEqual(lanescape(*RUN, "--out", out).stderr, "")
         self.assertEqual((out / "path-0001.png").read_bytes()[:4], b"\x89PNG")

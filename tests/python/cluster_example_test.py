@@ -5,7 +5,6 @@ that on PATH, or that of PyPI in an environment of its own.
 """
 
 import csv
-import os
 import shutil
 import subprocess
 import sys
@@ -14,13 +13,12 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from environments import environment, install  # noqa: E402
+from environments import snakemake  # noqa: E402
 
 if len(sys.argv) < 2:
     sys.exit(__doc__)
 PROGRAM = Path(sys.argv.pop(1)).resolve()
 EXAMPLE = Path(__file__).resolve().parents[2] / "docs" / "examples" / "cluster"
-SNAKEMAKE = os.environ.get("LANESCAPE_SNAKEMAKE") or shutil.which("snakemake")
 
 # Ends its first run of end points as a cluster does, and keeps the status of every run.
 INTERRUPTING = """#!/bin/sh
@@ -75,9 +73,6 @@ class ClusterExample(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    if SNAKEMAKE is not None:
-        unittest.main()
     with tempfile.TemporaryDirectory(prefix="lanescape-snakemake-") as name:
-        install(environment(Path(name), "/usr/bin/python3", system=False), "snakemake==9.27.1")
-        SNAKEMAKE = Path(name) / "venv/bin/snakemake"
+        SNAKEMAKE = snakemake(Path(name))
         unittest.main()

@@ -1,5 +1,7 @@
 """Virtual environments in which tests use packages of PyPI, and how a test says that it cannot run."""
 
+import os
+import shutil
 import subprocess
 import sys
 
@@ -22,3 +24,12 @@ def install(python, *packages):
     if done.returncode != 0:
         reason = (done.stderr.strip().splitlines() or ["no message"])[-1]
         skip(f"pip cannot install {' '.join(packages)} here: {reason}")
+
+
+def snakemake(folder):
+    """Snakemake: that of LANESCAPE_SNAKEMAKE, that on PATH, or that of PyPI in a new environment in the folder."""
+    found = os.environ.get("LANESCAPE_SNAKEMAKE") or shutil.which("snakemake")
+    if found:
+        return found
+    install(environment(folder, "/usr/bin/python3", system=False), "snakemake==9.27.1")
+    return folder / "venv/bin/snakemake"

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from scipy.interpolate import BSpline
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tools"))
 import equation_of_state  # noqa: E402
 from plot_flow import by_rows  # noqa: E402
 from plot_style import read_table  # noqa: E402

@@ -1,6 +1,6 @@
 # Open flows against the equation of state: the part of docs/VALIDATION.md on flow.
 #
-#   snakemake -s tools/validation/flow.smk --cores 2 --config program=build/release/lanescape out=out/validation-flow
+#   snakemake -s campaigns/flow.smk --cores 2 --config program=build/release/lanescape out=out/validation-flow
 #
 # About half an hour of one core. Interrupted, it goes on where it was.
 
