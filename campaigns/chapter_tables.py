@@ -225,11 +225,14 @@ def few_particles_table(chapter):
 
 def heterogeneity_table(chapter):
     """The width of log10(g_j/DeltaR_j) of small spheres."""
-    rows = [["φ", "pairs", "width, all particles together", "mean of the widths of single paths"]]
+    rows = [["φ", "pairs", "width, all particles together", "mean of the widths of single paths", "pairs, optimised", "width", "mean of single paths"]]
     for phi in chapter.values("packing_fraction", kind="path", distance_species="Ar"):
-        of = dict(kind="path", model=HARD["binary"], packing_fraction=phi, distance_species="Ar")
-        pooled, single = chapter.mean("heterogeneity_pooled_Ar", **of), chapter.mean("heterogeneity_Ar", **of)
-        rows.append([f"{float(phi):.2f}", str(single.count), number(pooled), number(single)])
+        of = dict(model=HARD["binary"], packing_fraction=phi, distance_species="Ar")
+        cells = []
+        for kind in (dict(of, kind="path"), dict(of, kind="shorten", method="montecarlo")):
+            pooled, single = chapter.mean("heterogeneity_pooled_Ar", **kind), chapter.mean("heterogeneity_Ar", **kind)
+            cells += [str(single.count) if single else "", number(pooled), number(single)]
+        rows.append([f"{float(phi):.2f}", *cells])
     return Table(rows, "Small spheres, ΔR of the small spheres 90, N = 108.")
 
 

@@ -5,16 +5,17 @@ MONO = ["0.05", "0.10", "0.20", "0.30", "0.40", "0.45", "0.48"]
 HARD = {
     "smoke": dict(
         phis={"binary": ["0.10", "0.30"], "mono": ["0.20"]}, dense={}, pairs=2, few=["0.30"], few_pairs=1, fine_pairs=1, optimised=["0.30"], true=["0.10"], true_pairs={},
-        heterogeneity={"0.30": 3}, particles=32, distance=10, small_distance=8, sizes=[], largest_size={}, distances=[], away=["0.10"], away_sizes=[32]),
+        heterogeneity={"0.30": 3}, small_optimised={}, particles=32, distance=10, small_distance=8, sizes=[], largest_size={}, distances=[], away=["0.10"], away_sizes=[32]),
     "committed": dict(
         phis={"binary": BINARY, "mono": MONO}, dense={"0.58": 1}, pairs=5, few=["0.30", "0.50"], few_pairs=3, fine_pairs=2,
         optimised=["0.10", "0.30", "0.50"], true=["0.10", "0.30", "0.50"], true_pairs={"0.30": 2, "0.50": 1},
-        heterogeneity={"0.10": 50, "0.20": 50, "0.30": 50, "0.40": 20, "0.50": 10, "0.55": 5}, particles=108, distance=108,
+        heterogeneity={"0.10": 50, "0.20": 50, "0.30": 50, "0.40": 20, "0.50": 10, "0.55": 5}, small_optimised={"0.10": 5, "0.30": 5}, particles=108, distance=108,
         small_distance=90, sizes=[32, 64, 256, 500], largest_size={"0.30": 256, "0.50": 256}, distances=[30, 54, 216], away=["0.10", "0.30"], away_sizes=[32, 108]),
     "full": dict(
         phis={"binary": BINARY[:-1] + ["0.54", "0.56", "0.57"], "mono": MONO}, dense={"0.58": 5, "0.59": 1, "0.597": 1}, pairs=20, few=["0.10", "0.30", "0.50"],
         few_pairs=5, fine_pairs=5, optimised=BINARY[:-1] + ["0.54"], true=BINARY[:7], true_pairs={},
-        heterogeneity={phi: 50 for phi in ("0.10", "0.20", "0.30", "0.40", "0.50", "0.55")}, particles=108, distance=108, small_distance=90,
+        heterogeneity={phi: 50 for phi in ("0.10", "0.20", "0.30", "0.40", "0.50", "0.55")},
+        small_optimised={phi: 5 for phi in ("0.10", "0.20", "0.30", "0.40", "0.50", "0.55")}, particles=108, distance=108, small_distance=90,
         sizes=[32, 64, 256, 500], largest_size={}, distances=[30, 54, 216], away=["0.10", "0.20", "0.30", "0.40"], away_sizes=[32, 64, 108, 256]),
 }[SIZE]
 SPHERES = {"mono": "--model hard-sphere", "binary": "--model hard-sphere-binary"}
@@ -81,6 +82,7 @@ for phi, pairs in HARD["heterogeneity"].items():
     at = f"hard/small-{phi}"
     plan.ends(f"{at}-ends", spheres("binary", phi, HARD["particles"]) + f" --distance {HARD['small_distance']} --distance-species Ar", pairs)
     plan.paths(f"{at}-avoidance", f"{at}-ends", SPHERES["binary"], pairs)
+    plan.shortened(f"{at}-optimised", f"{at}-ends", f"{SPHERES['binary']} --method montecarlo", HARD["small_optimised"].get(phi, 0))
 for phi in HARD["away"]:
     for n in HARD["away_sizes"]:
         away(phi, n)

@@ -50,8 +50,8 @@ class ClusterExample(unittest.TestCase):
 
     def test_a_dry_run_lists_the_jobs_and_runs_none(self):
         jobs = self.snakemake("--dry-run")
-        self.assertRegex(jobs, r"endpoints +1\n")
-        self.assertRegex(jobs, r"path +2\n")
+        self.assertRegex(jobs, r"endpoints +1\s")
+        self.assertRegex(jobs, r"path +2\s")
         self.assertFalse((self.folder / "campaign" / "paths.csv").exists())
 
     def test_paths_come_into_one_table_interrupted_or_not(self):
