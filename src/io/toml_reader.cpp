@@ -34,7 +34,7 @@ double TomlReader::number(const toml::node& node, std::string_view key, const Nu
   if (!value || !range.contains(*value))
     refuse(node, value ? fmt::format("{} = {} is not allowed: {} is needed", key, *value, range.words)
                        : fmt::format("{} is no number: {} is needed", key, range.words));
-  return *value;
+  return *value + 0.0;  // -0.0 becomes 0: written as -0 it would be an integer, which has no sign
 }
 
 std::string TomlReader::text(const toml::node& node, std::string_view key) const {

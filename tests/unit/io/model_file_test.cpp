@@ -306,6 +306,22 @@ INSTANTIATE_TEST_SUITE_P(HardSpheres, ModelFileRefusal,
                                            BadModel{"FractionsOfTooMuch", hard("diameter = 1\nfraction = 0.9\n"), 2, "a sum of 1"}),
                          [](const auto& info) { return std::string(info.param.name); });
 
+TEST(ModelFile, AZeroHasNoSign) {
+  const std::string two =
+      "kind = 'ucg'\ncutoff = 2.5\n[[species]]\nname = 'Ar'\n[species.density]\nthreshold = 1.5\ncutoff = 2\n"
+      "[[species.state]]\nthreshold = 4\nmu = -0.0\n[[species.state]]\nmu = 0\n";
+  std::string pairs_of_states;
+  for (const char* states : {"[0, 0]", "[0, 1]", "[1, 1]"})
+    pairs_of_states += "[[pair]]\nspecies = ['Ar', 'Ar']\nstates = " + std::string(states) + "\nepsilon = 1\nsigma = 1\n";
+  const TemporaryFolder folder;
+  const AnyModel model = read_model_file(folder.file("zero.toml", two + pairs_of_states));
+  std::ostringstream first, second;
+  write_model_file(first, model);
+  write_model_file(second, read_model_file(folder.file("again.toml", first.str())));
+  EXPECT_EQ(first.str(), second.str());
+  EXPECT_EQ(first.str().find("-0"), std::string::npos);
+}
+
 TEST(ModelFile, AMissingFileIsRefusedByName) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "absent.toml";
