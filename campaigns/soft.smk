@@ -9,7 +9,9 @@ SOFT = {
         distance=10, equilibration="--quick --melt-steps 2000 --cooling-steps 2000 --check-steps 2000 --check-tolerance 1 --settle-steps 1000",
         lags=50, between=1000, sizes=[], distances=[]),
     "committed": dict(
-        systems={"ka": KOB_ANDERSEN, "lj": {t: LENNARD_JONES[t] for t in (5, 3, 2, 1, 0.7)}}, few=[5, 1], pairs=10, cold_pairs={0.8: 6, 0.7: 6, 0.6: 3, 0.5: 2}, shortened=3, cold_shortened={0.8: 2, 0.7: 2, 0.6: 2, 0.5: 0}, starts=5, fine=1, particles=108,
+        systems={"ka": KOB_ANDERSEN, "lj": {t: LENNARD_JONES[t] for t in (5, 3, 2, 1, 0.7)}}, few=[5, 1], pairs=10, shortened=3,
+        cold_pairs={("ka", 0.8): 6, ("ka", 0.7): 6, ("ka", 0.6): 3, ("ka", 0.5): 2, ("lj", 0.7): 2},
+        cold_shortened={("ka", 0.8): 2, ("ka", 0.7): 2, ("ka", 0.6): 2, ("ka", 0.5): 0, ("lj", 0.7): 2}, starts=5, fine=1, particles=108,
         distance=108, equilibration="", lags=500, between=100000, sizes=[32, 64, 256], distances=[30, 54, 216]),
     "full": dict(
         systems={"ka": {**KOB_ANDERSEN, 0.45: 12000}, "lj": LENNARD_JONES}, few=[5, 4, 3, 2, 1], pairs=20, cold_pairs={}, cold_shortened={}, shortened=5, starts=20,
@@ -30,7 +32,7 @@ def liquid(system, t, particles):
 def soft_sweep(system, t, longest):
     """One state point: diffusion, greedy paths of both kinds of steps, optimised ones and true geodesics."""
     n, at = SOFT["particles"], f"soft/{system}-T{t}"
-    pairs = SOFT["cold_pairs"].get(t, SOFT["pairs"]) if system == "ka" else SOFT["pairs"]
+    pairs = SOFT["cold_pairs"].get((system, t), SOFT["pairs"])
     state = liquid(system, t, n) + " " + (SOFT["equilibration"] or ("--quick" if system == "lj" else ""))
     model = MODELS[system].split(" --density")[0]
     lags, between = SOFT["lags"], SOFT["between"]
@@ -39,7 +41,7 @@ def soft_sweep(system, t, longest):
     plan.paths(f"{at}-adaptive", f"{at}-ends", f"{model} --adaptive", pairs)
     if system == "ka" and t in SOFT["few"]:
         plan.paths(f"{at}-faithful", f"{at}-ends", model, min(pairs, 5))
-    some = SOFT["cold_shortened"].get(t, min(pairs, SOFT["shortened"])) if system == "ka" else SOFT["shortened"]
+    some = SOFT["cold_shortened"].get((system, t), min(pairs, SOFT["shortened"]))
     plan.shortened(f"{at}-optimised", f"{at}-ends", f"{model} --method montecarlo --adaptive --starts {SOFT['starts']}", some)
     plan.shortened(f"{at}-true", f"{at}-ends", f"{model} --method curve --adaptive", some)
 

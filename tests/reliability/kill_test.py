@@ -12,7 +12,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
-from cli_support import ARGON, FLUID, GROWTH, SCAN, TAIL, TINY, InterruptionTest, contents, with_options  # noqa: E402
+from cli_support import ARGON, FLUID, GROWTH, SCAN, TINY, InterruptionTest, contents, with_options  # noqa: E402
 
 KILLS = int(os.environ.get("LANESCAPE_KILLS", "20"))
 SEED = int(os.environ.get("LANESCAPE_KILL_SEED", str(random.SystemRandom().randrange(10**6))))
@@ -55,7 +55,7 @@ def results(folder):
 
 class Kills(InterruptionTest):
     def arguments(self, kind):
-        """The command line of a kind, and the seconds that a whole run takes."""
+        """The command line of a kind, with the file of its end points."""
         line = KINDS[kind]
         if PAIR not in line:
             return line
