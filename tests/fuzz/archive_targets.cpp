@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "archived_state.hpp"
 #include "core/byte_archive.hpp"
 #include "io/hdf5_archive.hpp"
 #include "io/whole_file.hpp"
@@ -17,33 +18,22 @@ namespace {
 
 constexpr std::size_t trailer_bytes = 32;
 
-// A field of every type, inside and outside groups; long enough that one array lies in chunks.
-struct State {
-  double time = 1.5;
-  std::uint64_t step = 7;
-  std::string name = "kob-andersen";
-  std::vector<double> positions = std::vector<double>(1100, 0.25);
-  AlignedArray velocities;
-  std::vector<std::uint64_t> order = {2, 0, 1};
+using testing::ArchivedState;
 
-  void exchange(Archive& archive) {
-    archive.field("time", time);
-    archive.enter("dynamics");
-    archive.field("step", step);
-    archive.enter("particles");
-    archive.field("positions", positions);
-    archive.field("velocities", velocities);
-    archive.leave();
-    archive.field("order", order);
-    archive.leave();
-    archive.field("name", name);
-  }
-};
+// Long enough that one array lies in chunks.
+ArchivedState some_state() {
+  return {.time = 1.5,
+          .step = 7,
+          .name = "kob-andersen",
+          .positions = std::vector<double>(1100, 0.25),
+          .velocities = {},
+          .order = {2, 0, 1}};
+}
 
 std::string whole_archive() {
   const std::filesystem::path path =
       std::filesystem::temp_directory_path() / ("lanescape-fuzz-" + std::to_string(::getpid()) + ".h5");
-  State state;
+  ArchivedState state = some_state();
   Hdf5Writer writer(path);
   state.exchange(writer);
   writer.commit();
@@ -57,7 +47,7 @@ std::string without_trailer(const std::string& bytes) { return bytes.substr(0, b
 
 void read_state(std::string_view bytes) {
   const MemoryFile file(bytes);
-  State state;
+  ArchivedState state;
   Hdf5Reader reader(file.path());
   state.exchange(reader);
 }
@@ -68,7 +58,7 @@ void read_path(std::string_view bytes) {
 }
 
 void read_bytes(std::string_view bytes) {
-  State state;
+  ArchivedState state;
   ByteReader reader(bytes);
   state.exchange(reader);
 }
@@ -104,7 +94,7 @@ std::vector<std::string> path_seeds() {
 }
 
 std::vector<std::string> host_state_seeds() {
-  State state;
+  ArchivedState state = some_state();
   ByteWriter writer;
   state.exchange(writer);
   const std::string bytes = writer.bytes();

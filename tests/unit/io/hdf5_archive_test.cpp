@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "archived_state.hpp"
 #include "io/whole_file.hpp"
 #include "test_files.hpp"
 
@@ -37,27 +38,8 @@ using testing::FileSizeLimit;
 using testing::refusal;
 using testing::TemporaryFolder;
 
-// One field of every type, inside and outside groups.
-struct State {
-  double time = 0.0;
-  std::uint64_t step = 0;
-  std::string name;
-  std::vector<double> positions;
-  AlignedArray velocities;
-  std::vector<std::uint64_t> order;
-
-  void exchange(Archive& archive) {
-    archive.field("time", time);
-    archive.enter("dynamics");
-    archive.field("step", step);
-    archive.enter("particles");
-    archive.field("positions", positions);
-    archive.field("velocities", velocities);
-    archive.leave();
-    archive.field("order", order);
-    archive.leave();
-    archive.field("name", name);
-  }
+// Compared bit by bit.
+struct State : testing::ArchivedState {
   friend bool operator==(const State& a, const State& b) {
     const auto same = [](const auto& x, const auto& y) {
       return std::equal(x.begin(), x.end(), y.begin(), y.end(),
