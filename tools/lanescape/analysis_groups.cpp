@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "analysis_settings.hpp"
+#include "run/end_point_run.hpp"
 
 namespace lanescape::program {
 namespace {
@@ -23,11 +24,11 @@ Json& setting_of(ResultRow& settings, const std::string& name) {
 // runs of the same other settings whose distances lie within it belong together, under the smallest of them with 3 digits.
 constexpr double same_distance = 1.02;
 
-// As endpoints has it, for a length unit of 1.
-double default_distance(double particles) { return particles == 108.0 ? 108.0 : 10.0 * std::sqrt(particles); }
+// That of endpoints, for a length unit of 1.
+double default_distance_of(const AnalysedRun& run) { return default_distance(run.setting("particles").get<std::size_t>()); }
 
 bool is_default_distance(const AnalysedRun& run) {
-  const double least = default_distance(run.setting("particles").get<double>());
+  const double least = default_distance_of(run);
   return *run.measured_distance >= least * (1.0 - 1e-9) && *run.measured_distance <= same_distance * least;
 }
 
@@ -37,7 +38,7 @@ void settle_distances(std::vector<AnalysedRun>& runs) {
   for (AnalysedRun& run : runs) {
     if (!run.setting("distance").is_null() || !run.measured_distance) continue;
     if (is_default_distance(run))
-      setting_of(run.settings, "distance") = rounded(default_distance(run.setting("particles").get<double>()), 4);
+      setting_of(run.settings, "distance") = rounded(default_distance_of(run), 4);
     else
       alike[name_of_settings(run.settings, without)].push_back(&run);
   }

@@ -46,7 +46,7 @@ Named<double> path_values(const RunJson& path, const RunJson& clock) {
   add_if(values, "detour_steps", detours_in(path, "steps"));
   add_if(values, "direct_length", path.in("lengths").optional_number("direct"));
   add_if(values, "detour_length", detours_in(path, "lengths"));
-  for (const char* key : {"evaluations"}) add_if(values, key, path.optional_number(key));
+  add_if(values, "evaluations", path.optional_number("evaluations"));
   add_if(values, "seconds", clock.optional_number("seconds"));
   add_if(values, "trials_per_detour", trials_per_detour(path.numbers("corrections")));
   for (const auto& [species, width] : path.entries("heterogeneity"))
