@@ -40,7 +40,7 @@ PROGRAM_STAGES = {"core", "configuration", "io", "dispatch", "flow", "insertion"
 KERNEL_STANDARD_HEADERS = {"cstddef", "cstdint", "cmath", "type_traits", "utility"}
 VECTOR_LAYER = "kernels/simd/"
 # What a build of the kernels alone must not need.
-FILE_FORMATS = {"hdf5.h": ("src/io/", "tests/"), "zlib.h": ("src/io/",), "toml++": ("src/io/", "tools/"), "nlohmann": ("tools/", "tests/"), "CLI": ("tools/",)}
+FILE_FORMATS = {"hdf5.h": ("src/io/", "tests/"), "zlib.h": ("src/io/",), "toml++": ("src/io/",), "nlohmann": ("tools/", "tests/"), "CLI": ("tools/", "tests/fuzz/")}
 EIGEN_USERS = ("src/path/shortening", "src/observables/fits", "tests/")
 
 FOLDERS = ("kernels", "reference", "src", "tools", "bench", "bindings", "tests", "docs")

@@ -18,6 +18,8 @@ namespace lanescape::fuzz {
 const std::vector<Target>& all_targets() {
   static const std::vector<Target> targets = {{"extended_xyz", read_extended_xyz, extended_xyz_seeds},
                                               {"model", read_model, model_seeds},
+                                              {"command_line", read_command_line, command_line_seeds},
+                                              {"run_folder", read_run_folder, run_folder_seeds},
                                               {"archive", read_archive_as_it_is, archive_seeds},
                                               {"archive_content", read_archive_behind_checksum, bare_archive_seeds},
                                               {"path_content", read_path_behind_checksum, path_seeds},

@@ -41,6 +41,8 @@ void refusing(void (*reader)(std::string_view), std::string_view bytes);
 // The targets.
 void read_extended_xyz(std::string_view bytes);
 void read_model(std::string_view bytes);
+void read_command_line(std::string_view bytes);
+void read_run_folder(std::string_view bytes);
 void read_archive_as_it_is(std::string_view bytes);
 void read_archive_behind_checksum(std::string_view bytes);
 void read_path_behind_checksum(std::string_view bytes);
@@ -48,6 +50,8 @@ void read_host_state(std::string_view bytes);
 
 std::vector<std::string> extended_xyz_seeds();
 std::vector<std::string> model_seeds();
+std::vector<std::string> command_line_seeds();
+std::vector<std::string> run_folder_seeds();
 std::vector<std::string> archive_seeds();
 std::vector<std::string> bare_archive_seeds();
 std::vector<std::string> path_seeds();

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <toml++/toml.h>
-
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 
+#include "io/toml.hpp"
 #include "result_table.hpp"
 #include "run_json.hpp"
 

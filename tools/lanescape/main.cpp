@@ -33,14 +33,11 @@ int printed(const std::string& result, int status) {
 int run(const std::vector<std::string>& arguments) {
   CLI::App app("Landscape geodesics of liquids and the kernels beneath them. Results are one JSON object on stdout.", "lanescape");
   app.set_version_flag("--version", version());
-  app.require_subcommand(1);
   app.get_formatter()->column_width(34);
   app.footer(
       "Exit status: 0 done, 1 the goal was not reached or figures failed, 2 bad input, 3 a defect,\n"
       "4 interrupted by SIGINT or SIGTERM: --resume continues.");
-  const std::vector<Subcommand> subcommands = {
-      add_info(app),   add_energy(app), add_overlap(app), add_endpoints(app), add_path(app),   add_shorten(app), add_diffusion(app),
-      add_insert(app), add_flow(app),   add_slab(app),    add_analyze(app),   add_verify(app), add_cases(app),   add_check(app)};
+  const std::vector<Subcommand> subcommands = add_subcommands(app);
   try {
     CommandLine line = with_run_file(arguments, app);
     // CLI11 takes arguments in reverse.

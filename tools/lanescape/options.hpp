@@ -1,6 +1,5 @@
 #pragma once
 
-#include <toml++/toml.h>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -9,6 +8,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "io/toml.hpp"
 
 namespace CLI {
 class App;

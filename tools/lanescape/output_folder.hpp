@@ -1,6 +1,5 @@
 #pragma once
 
-#include <toml++/toml.h>
 #include <filesystem>
 #include <functional>
 #include <ostream>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "folder_lock.hpp"
+#include "io/toml.hpp"
 
 namespace lanescape::program {
 

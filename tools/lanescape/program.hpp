@@ -90,6 +90,8 @@ struct Subcommand {
   std::function<Json(int& status)> run;
 };
 
+// All of them; one is required.
+std::vector<Subcommand> add_subcommands(CLI::App& app);
 Subcommand add_flow(CLI::App& app);
 Subcommand add_info(CLI::App& app);
 Subcommand add_energy(CLI::App& app);

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <toml++/toml.h>
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
 #include <string>
+
+#include "io/toml.hpp"
 
 namespace lanescape::program {
 

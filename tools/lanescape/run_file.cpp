@@ -1,13 +1,13 @@
 #include "run_file.hpp"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "io/toml.hpp"
 #include "options.hpp"
 #include "resume_or_start.hpp"
 
