@@ -18,6 +18,7 @@ Reads the files that `lanescape path`, `shorten`, `endpoints`, `diffusion`, `ins
   continuum.csv, alone.csv  the fluid on both sides of it, and the solver without the slab
   groups.csv, means.csv, distributions.csv, fits.csv, scaling.csv, scaling_points.csv     an analysis of finished runs
   scan.csv, holes.csv, errors.csv     cost of insertion, sizes of holes, convergence of errors
+  map.csv                   energy of one more particle over a plane
 
 Writes into DIR:
   path-0001.png ...   energy, distance to the goal, share of direct steps and participation ratio along the path
@@ -45,8 +46,9 @@ Writes into DIR:
   insertion-step.png       evaluations against the largest step, if there are three or more largest steps
   insertion-holes.png      radii, anisotropy and eccentricity of regions of low energy against density
   insertion-errors.png     error at an evaluation and at the next one
-If a density has several temperatures, insertion figures show the temperature with most densities; only the panels against temperature and
-insertion-errors.png show all. If there are several largest steps, they show the default, or else the first; insertion-step.png shows all.
+  insertion-map.png        energy of one more particle over the plane x = 0, at four states at most
+If a density has several temperatures, insertion figures show the temperature with most densities; only the panels against temperature,
+insertion-errors.png and insertion-map.png show all. If there are several largest steps, they show the default, or else the first; insertion-step.png shows all.
 
 Exit status: 0; or 2 with one line on stderr if input is missing or cannot be read. Then nothing is drawn.
 Lengths are in sigma, energies in epsilon, temperatures in epsilon/k_B.

@@ -4,6 +4,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
+import plot_insertion_map
 from plot_densification import draw_densification
 from plot_style import (BLUE, DENSITY, GREEN, GREY, PAIR_STYLES, PURPLE, SKY_BLUE, VERMILLION, decade_ticks, legend_beside, letter,
                         logarithmic, plt, read_table, save, shades, system_parts, title)
@@ -15,6 +16,7 @@ COLUMNS = {
              "largest_distance"),
     "holes": ("density", "temperature", "iso_energy", "holes", "mean_radius", "semi_minor", "semi_major", "anisotropy", "eccentricity"),
     "errors": ("density", "error", "next_error"),
+    "map": plot_insertion_map.COLUMNS,
 }
 TEXT = ("method", "largest_step")  # largest_step may be "default"
 METHOD_COLOURS = {"usher": BLUE, "usher-indirect": SKY_BLUE, "usher-near": PURPLE, "screened": GREEN, "descent": VERMILLION}
@@ -43,6 +45,8 @@ def read_insertion(folder):
         tables[name] = {key: values if key in TEXT else np.where(np.isfinite(values), values, np.nan) for key, values in table.items()}
         for step in tables[name].get("largest_step", ()):
             step_size(step, 1.0, file)
+    if "map" in tables:
+        tables["map"] = plot_insertion_map.read_maps(tables["map"], folder / "map.csv")
     return tables
 
 
@@ -363,3 +367,5 @@ def draw_insertion(folder, tables, result, run):
         draw_holes(folder, tables["holes"], system, tables.get("scan"))
     if "errors" in tables:
         draw_errors(folder, tables["errors"], system)
+    if tables.get("map"):
+        plot_insertion_map.draw_maps(folder, tables["map"], system)

@@ -26,7 +26,7 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 // Rows of plain numbers, as they are archived.
 struct ScanRows {
-  std::vector<double> states, costs, holes, errors;
+  std::vector<double> states, costs, holes, errors, map;
 };
 
 // One combination of method, tolerance and step, over all configurations of a state.
@@ -95,6 +95,7 @@ class StateScan {
     for (const Combination& combination : combinations_)
       combination.add_to(out.costs, at_, static_cast<double>(options_->configurations));
     for (std::size_t k = 0; k < holes_.size(); ++k) add_holes(out, k);
+    if (options_->map_points > 0) add_map(fluid, out);
     return true;
   }
 
@@ -167,6 +168,25 @@ class StateScan {
     }
   }
 
+  // Rows of constant z, and in each increasing y. Both edges of the box are on the map: they are the same points.
+  void add_map(MovingFluid& fluid, ScanRows& out) const {
+    const Configuration configuration = fluid.state().configuration;
+    const double target = fluid.potential().energy / static_cast<double>(configuration.size());
+    const ProbeField field(*model_, configuration, options_->species, kernel_table(isa_));
+    const std::uint64_t n = options_->map_points;
+    std::vector<double> positions;
+    for (std::uint64_t row = 0; row < n; ++row)
+      for (std::uint64_t column = 0; column < n; ++column) {
+        const auto part = [&](std::uint64_t k) { return static_cast<double>(k) / static_cast<double>(n - 1); };
+        positions.insert(positions.end(), {0.0, part(column) * field.box().length[1], part(row) * field.box().length[2]});
+      }
+    std::vector<double> energies(n * n);
+    field.energies(positions, energies);
+    for (std::size_t k = 0; k < energies.size(); ++k)
+      out.map.insert(out.map.end(),
+                     {at_.density, at_.temperature, positions[3 * k + 1], positions[3 * k + 2], energies[k], target});
+  }
+
   const PairModel* model_;
   const InsertionScanOptions* options_;
   Isa isa_;
@@ -191,6 +211,7 @@ InsertionScanResult result_of(const ScanRows& rows) {
   for_each_row(rows.holes, 10,
                [&](const double* r) { result.holes.push_back({r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], r[9]}); });
   for_each_row(rows.errors, 3, [&](const double* r) { result.errors.push_back({r[0], r[1], r[2]}); });
+  for_each_row(rows.map, 6, [&](const double* r) { result.map.push_back({r[0], r[1], r[2], r[3], r[4], r[5]}); });
   return result;
 }
 
@@ -211,6 +232,7 @@ class Scan final : public ResumableWork {
     archive.field("costs", rows_.costs);
     archive.field("holes", rows_.holes);
     archive.field("errors", rows_.errors);
+    archive.field("map", rows_.map);
     archive.field("done", done_);
   }
 
@@ -237,6 +259,8 @@ void InsertionScanOptions::check(const PairModel& model) const {
   check_at_least_one("number of states", states.size());
   if (!(time_step > 0.0 && time_step <= 0.02))
     throw_bad_input(fmt::format("time step {} is not allowed: above 0 and at most 0.02, or energy is not conserved", time_step));
+  if (map_points == 1 || map_points > 4096)
+    throw_bad_input(fmt::format("number of map points {} is not allowed: 0, or 2 to 4096 along each edge", map_points));
   if (target == ScanTarget::chemical_potential && widom_probes == 0)
     throw_bad_input("a target of the chemical potential needs Widom probes: their number must be at least 1");
   for (const State& state : states) {

@@ -39,6 +39,7 @@ struct InsertionScanOptions {
   std::uint64_t holes = 0;            // per configuration
   std::vector<double> iso_energies;   // of holes [epsilon]
   std::uint64_t traced_searches = 0;  // per configuration, of direct USHER to the limit of precision
+  std::uint64_t map_points = 0;       // along each edge of a map of a state's last configuration
   std::uint64_t seed = 1;
   int threads = 1;
 
@@ -77,11 +78,20 @@ struct ScanErrorPair {
   double density, error, next_error;
 };
 
+// The energy of a probe at a point of the plane x = 0 ([U] figure 1).
+struct ScanMapPoint {
+  double density, temperature;
+  double y, z;    // [sigma]
+  double energy;  // [epsilon]
+  double target;  // the configuration's mean excess energy per particle [epsilon]
+};
+
 struct InsertionScanResult {
   std::vector<ScanStateRow> states;
   std::vector<ScanCostRow> costs;
   std::vector<ScanHoleRow> holes;
   std::vector<ScanErrorPair> errors;
+  std::vector<ScanMapPoint> map;
   bool interrupted = false;
   double seconds = 0.0;
 };

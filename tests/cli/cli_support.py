@@ -35,7 +35,7 @@ FLUID = ("--particles", "32", "--density", "0.8", "--temperature", "1", "--dista
 TAIL = ("--model", "lennard-jones", "--truncation", "tail")
 SCAN = ("insert", "--scan", *TAIL, "--states", "0.4:2.5,0.5:2", "--particles", "64", "--configurations", "2", "--count", "20",
         "--methods", "usher,screened,descent", "--tolerances", "0.2,0.01", "--equilibration-steps", "200", "--between-steps", "100",
-        "--widom-probes", "500", "--holes", "2", "--iso-energies", "0,5", "--traced-searches", "5", "--threads", "1")
+        "--widom-probes", "500", "--holes", "2", "--iso-energies", "0,5", "--traced-searches", "5", "--map-points", "3", "--threads", "1")
 GROWTH = ("insert", "--densify", "0.5", *TAIL, "--particles", "64", "--rows", "4", "--rate", "0.1", "--equilibration-steps", "200",
           "--threads", "1")
 

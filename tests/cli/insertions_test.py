@@ -112,6 +112,8 @@ class Insertions(ProgramTest):
             with self.subTest(arguments):
                 self.refused_cleanly("insert", *TAIL, *arguments, says=says)
         self.refused_cleanly("insert", self.fluid, "--model", "hard-sphere", says="hard spheres")
+        self.refused("insert", *TAIL, "--scan", "--map-points", "1", "--out", self.folder / "out", says="map points")
+        self.assertFalse((self.folder / "out").exists())
 
     def test_a_scan_reports_every_combination_and_state(self):
         out = self.folder / "out"
@@ -125,6 +127,11 @@ class Insertions(ProgramTest):
         self.assertEqual([float(r["evaluations"]) for r in rows], [r["evaluations"] for r in run["scan"]])
         pairs = list(csv.DictReader((out / "errors.csv").read_text().splitlines()))
         self.assertGreater(len(pairs), 20)
+        points = list(csv.DictReader((out / "map.csv").read_text().splitlines()))
+        self.assertEqual(len(points), 2 * 3 * 3)
+        for corner in (0, 9):  # of both states: the four corners are one point
+            self.assertEqual(len({float(points[corner + k]["energy"]) for k in (0, 2, 6, 8)}), 1)
+            self.assertAlmostEqual(float(points[corner + 8]["y"]), (64 / float(points[corner]["density"])) ** (1 / 3), delta=1e-12)
 
     def test_rows_of_growth_without_a_density_step_have_no_means(self):
         run = self.done(*with_options(GROWTH, "--densify", "0.42", "--rows", "10"))

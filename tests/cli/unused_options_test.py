@@ -44,7 +44,8 @@ class UnusedOptions(ProgramTest):
                                                                 "--density=0.5", "--method=usher"), "with --scan")
         self.all_refused(("insert", "--scan", *LENNARD_JONES), ("--iso-energies=0",), "without --holes")
         self.all_refused(("insert", "--scan", *LENNARD_JONES, "--tolerances", "0.1"), ("--tolerance=0.1",), "with --tolerances")
-        self.refused("insert", "--scan", *LENNARD_JONES, "--traced-searches", "2", says=("--traced-searches", "without --out"))
+        for option in ("--traced-searches", "--map-points"):
+            self.refused("insert", "--scan", *LENNARD_JONES, option, "2", says=(option, "without --out"))
         self.all_refused(GROWTH, ("--count=1", "--energy=-1", "--remove=1", "--states=0.4:1", "--holes=1"), "with --densify")
         self.all_refused(("insert", FLUID, *LENNARD_JONES, "--densify", "0.5"), ("--density=0.4", "--particles=100"), "with FILE")
         self.refused("insert", "--scan", "--densify", "0.5", *LENNARD_JONES, says=("--scan", "--densify", "together"))

@@ -2,6 +2,7 @@
 """tools/plot.py on small made-up folders of insertion runs: the figures that it writes, their content, and its refusals."""
 
 import json
+import math
 import sys
 import unittest
 
@@ -15,6 +16,7 @@ import plot_insertion  # noqa: E402
 
 RUN = 'model = "lennard-jones"\ntruncation = "tail"\nparticles = 500\n'
 SCAN_HEADER = "density,temperature,method,tolerance,largest_step,evaluations,evaluations_error,distance,largest_distance"
+MAP_HEADER = "density,temperature,y,z,energy,target"
 HOLES_HEADER = "density,temperature,iso_energy,holes,mean_radius,semi_minor,semi_major,anisotropy,eccentricity"
 GROWTH_HEADER = "time,density,temperature,pressure,excess_energy,energy,inserted_energy,evaluations,drift"
 STATES = ((0.4, 2.5), (0.6, 2.5), (0.8, 2.5), (0.8, 1.5))
@@ -35,6 +37,13 @@ def error_rows():
 
 def growth_rows(count=8):
     return [f"{k},{0.42 + 0.04 * k},{2.5 + 0.1 * k},{1 + k},{-2.5 - 0.1 * k},{1.27 - 0.01 * (k % 3)},1,10,0" for k in range(count)]
+
+
+def map_rows(points=9, states=STATES):
+    """A trap above the target of -2 in the middle, a hole below it at the corners."""
+    x = [k / (points - 1) for k in range(points)]
+    return [f"{rho},{t},{5 * y},{5 * z},{-2.5 * math.cos(2 * math.pi * y) * math.cos(2 * math.pi * z) + 1.5 * (0.2 < y < 0.8)},-2"
+            for rho, t in states for z in x for y in x]
 
 
 class PlotInsertion(PlotTest):
@@ -79,6 +88,18 @@ class PlotInsertion(PlotTest):
         self.assertEqual(squares, [("s", 0.4, 0.1), ("s", 0.8, 0.1)])
         plot_insertion.plt.close()
 
+    def test_maps_show_traps_and_are_drawn_for_four_states_at_most(self):
+        self.write("map.csv", MAP_HEADER, map_rows(states=[*STATES, (0.9, 2.5)]))
+        self.assert_draws("insertion-map.png")
+        of = plot_insertion.read_insertion(self.folder)["map"][0]
+        self.assertEqual([float(x) for x in np.ravel(of.traps())], [2.5, 2.5])
+
+    def test_maps_without_a_square_grid_or_a_target_are_refused(self):
+        self.write("map.csv", MAP_HEADER, map_rows()[1:])
+        self.assert_refuses("80 rows of one state are not a square grid")
+        self.write("map.csv", MAP_HEADER, [row.rsplit(",", 1)[0] + ",nan" for row in map_rows()])
+        self.assert_refuses("target must be finite")
+
     def test_growth_gives_its_figure_with_and_without_equations_of_state(self):
         self.write("densification.csv", GROWTH_HEADER, growth_rows())
         self.assert_draws("densification.png")
@@ -96,6 +117,7 @@ class PlotInsertion(PlotTest):
         self.write("scan.csv", SCAN_HEADER, [])
         self.write("holes.csv", HOLES_HEADER, hole_rows(0))
         self.write("errors.csv", "density,error,next_error", ["0.8,1e-14,0"])
+        self.write("map.csv", MAP_HEADER, [])
         self.write("densification.csv", GROWTH_HEADER, [])
         self.assert_draws()
 
@@ -107,7 +129,7 @@ class PlotInsertion(PlotTest):
     def test_a_damaged_table_is_refused_and_nothing_is_drawn(self):
         self.write("densification.csv", GROWTH_HEADER, growth_rows())
         damaged = {"scan.csv": (SCAN_HEADER, scan_rows()), "holes.csv": (HOLES_HEADER, hole_rows()),
-                   "errors.csv": ("density,error,next_error", error_rows())}
+                   "errors.csv": ("density,error,next_error", error_rows()), "map.csv": (MAP_HEADER, map_rows())}
         for name, (header, rows) in damaged.items():
             for head, body in ((header, [*rows, "0.4,2"]), (header, [rows[0].replace("0.4", "x", 1)]), (header, ["-" + rows[0]]),
                                (header.replace("density,", "rho,"), rows), (header.rsplit(",", 1)[0], rows)):

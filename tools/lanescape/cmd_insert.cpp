@@ -169,6 +169,8 @@ void add_scan_options(Options& options, InsertState& state) {
   options.add("--iso-energies", state.iso_energies, "of --holes: energies at their surface").only_for({holes});
   options.add("--traced-searches", state.traced_searches, "of --scan, per configuration: how errors shrink, for errors.csv")
       .only_for({runs_with_a_folder});
+  options.add("--map-points", state.map_points, "of --scan, per edge: a map of the energy in the plane x = 0 of each state, for map.csv")
+      .only_for({runs_with_a_folder});
   options.end_group();
 }
 

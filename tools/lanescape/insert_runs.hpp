@@ -23,7 +23,7 @@ struct InsertState {
   bool scan = false, plot = false;
   std::string states = "0.4:2.5,0.5:2.5,0.6:2.5,0.7:2.5,0.8:2.5", methods = "usher", tolerances, largest_steps = "default",
               iso_energies = "0";
-  std::uint64_t configurations = 5, between_steps = 2000, widom_probes = 0, holes = 0, traced_searches = 0;
+  std::uint64_t configurations = 5, between_steps = 2000, widom_probes = 0, holes = 0, traced_searches = 0, map_points = 0;
 };
 
 // Run --densify and --scan; return the JSON for stdout.

@@ -42,6 +42,7 @@ InsertionScanOptions scan_options(const InsertState& state, const PairModel& mod
   with.widom_probes = state.widom_probes;
   with.holes = state.holes;
   with.traced_searches = state.traced_searches;
+  with.map_points = state.map_points;
   with.seed = state.common.seed;
   with.threads = state.common.threads;
   with.check(model);
@@ -85,6 +86,10 @@ ResultRow row_of(const ScanHoleRow& r) {
           {"open_directions", r.open}};
 }
 
+ResultRow row_of(const ScanMapPoint& r) {
+  return {{"density", r.density}, {"temperature", r.temperature}, {"y", r.y}, {"z", r.z}, {"energy", r.energy}, {"target", r.target}};
+}
+
 ResultRow row_of(const ScanErrorPair& r) { return {{"density", r.density}, {"error", r.error}, {"next_error", r.next_error}}; }
 
 }  // namespace
@@ -112,6 +117,7 @@ Json run_scan(InsertState& state, const Options& options, const PairModel& model
   write_table(folder, "states.csv", states);
   write_table(folder, "holes.csv", holes);
   write_table(folder, "errors.csv", table_of(run.errors, row));
+  write_table(folder, "map.csv", table_of(run.map, row));
   write_result(folder, "insert", options.resolved(), result, status);
   return result;
 }
