@@ -38,9 +38,15 @@ void CommonOptions::add_to(Options& options) {
 }
 
 Isa CommonOptions::resolve_isa() {
-  const Isa chosen = choose_isa(isa);
-  isa = to_string(chosen);
-  return chosen;
+  try {
+    const Isa chosen = choose_isa(isa);
+    isa = to_string(chosen);
+    return chosen;
+  } catch (const Error& error) {
+    if (resume.empty()) throw;
+    // With another one the results would have other bits.
+    throw_bad_input(fmt::format("{}/run.toml: {}: a run goes on only with the one it began with", resume, error.what()));
+  }
 }
 
 void CommonOptions::check() const {
