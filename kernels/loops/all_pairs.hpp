@@ -133,7 +133,7 @@ LANESCAPE_INLINE void column_loop(std::size_t first, std::size_t last, const Edg
   const std::size_t slots = columns.slots;
   for (std::size_t j = first; j < last; j += lanes) {
     const double* sj = columns.positions + j;
-    double* gj = columns.gradient + j;
+    double* gj = has_gradient(output) ? columns.gradient + j : nullptr;  // there is none without a gradient
     const Displacement column{load(sj), load(sj + slots), load(sj + 2 * slots)};
     Displacement g{broadcast(0.0), broadcast(0.0), broadcast(0.0)};
     if constexpr (has_gradient(output)) g = {load(gj), load(gj + slots), load(gj + 2 * slots)};
