@@ -18,6 +18,7 @@ from pathlib import Path
 if len(sys.argv) < 3:
     sys.exit(__doc__)
 PROGRAM, DATA = str(Path(sys.argv.pop(1)).resolve()), Path(sys.argv.pop(1)).resolve()
+SLOWER = float(os.environ.get("LANESCAPE_SLOWER", "1"))  # how many times as long programs may take: sanitizers slow them down
 EXAMPLES = Path(__file__).resolve().parents[2] / "docs" / "examples"
 
 SUBCOMMANDS = ("info", "energy", "overlap", "endpoints", "path", "shorten", "diffusion", "insert", "flow", "slab", "analyze", "verify", "cases", "check")
@@ -71,7 +72,7 @@ def environment(**changes):
     return result
 
 
-def lanescape(*arguments, cwd=None, timeout=120, **variables):
+def lanescape(*arguments, cwd=None, timeout=120 * SLOWER, **variables):
     return subprocess.run([PROGRAM, *map(str, arguments)], stdin=subprocess.DEVNULL, capture_output=True, text=True,
                           cwd=cwd, timeout=timeout, env=environment(**variables))
 
@@ -170,7 +171,7 @@ class InterruptionTest(ProgramTest):
         self.wait_for(process, out / after)
         time.sleep(seconds)
         process.send_signal(with_signal)
-        stdout, stderr = process.communicate(timeout=30)
+        stdout, stderr = process.communicate(timeout=30 * SLOWER)
         self.assertEqual((process.returncode, stderr), (4, ""))
         result = one_object(stdout)
         self.assertEqual(result["exit_status"], 4)

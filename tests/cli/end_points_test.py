@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy
 
-from cli_support import PROGRAM, ARGON, TINY, WARM, ProgramTest, environment, frame, lanescape, one_object, with_options
+from cli_support import PROGRAM, ARGON, SLOWER, TINY, WARM, ProgramTest, environment, frame, lanescape, one_object, with_options
 
 
 class EndPoints(ProgramTest):
@@ -62,7 +62,7 @@ class EndPoints(ProgramTest):
         for quiet in (False, True):
             master, terminal = pty.openpty()
             run = subprocess.run([PROGRAM, *arguments, *(["--quiet"] if quiet else [])], stdout=subprocess.PIPE, stderr=terminal,
-                                 env=environment(), timeout=60)
+                                 env=environment(), timeout=60 * SLOWER)
             os.close(terminal)
             os.set_blocking(master, False)
             try:

@@ -12,7 +12,7 @@ import unittest
 import xml.etree.ElementTree
 from pathlib import Path
 
-from cli_support import DATA, PROGRAM, ProgramTest, lanescape
+from cli_support import DATA, PROGRAM, SLOWER, ProgramTest, lanescape
 
 LIBRARIES = Path(sys.argv.pop(1))
 DOUBLE, SINGLE = LIBRARIES / "host_kernels.so", LIBRARIES / "host_kernels_single.so"
@@ -111,7 +111,7 @@ class WrongKernels(HostTest):
                                    stderr=subprocess.PIPE, text=True, start_new_session=True)
         time.sleep(1.0)
         os.killpg(process.pid, signal.SIGINT)  # as a terminal does
-        stdout, stderr = process.communicate(timeout=20)
+        stdout, stderr = process.communicate(timeout=20 * SLOWER)
         self.assertEqual((process.returncode, stdout, stderr), (4, "", "lanescape: interrupted: no result is printed\n"))
 
     def test_nan_is_a_failure_that_names_particle_and_component(self):

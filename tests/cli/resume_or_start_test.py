@@ -6,7 +6,7 @@ import subprocess
 import time
 import unittest
 
-from cli_support import DATA, ARGON, FLUID, GROWTH, SCAN, TAIL, TINY, InterruptionTest, contents, one_object, with_options, without_seconds
+from cli_support import DATA, ARGON, FLUID, GROWTH, SCAN, SLOWER, TAIL, TINY, InterruptionTest, contents, one_object, with_options, without_seconds
 
 LONG_ENDS = ("endpoints", *ARGON, *with_options(TINY, "--melt-steps", "3000000", "--pairs", "2"))
 INTO = "--resume-or-start"
@@ -134,7 +134,7 @@ class ResumeOrStart(InterruptionTest):
         for line in ((*LONG_ENDS, INTO, out), ("endpoints", INTO, out), ("endpoints", "--resume", out)):
             self.refused(*line, says=(str(out), "another run is at work"))
         process.send_signal(signal.SIGTERM)
-        self.assertEqual(process.wait(timeout=30), 4)
+        self.assertEqual(process.wait(timeout=30 * SLOWER), 4)
         self.done(*LONG_ENDS, INTO, out)
 
 
@@ -151,7 +151,7 @@ class Interrupted(InterruptionTest):
                              "contraction", out=self.folder / "run")
         time.sleep(1.0)
         process.send_signal(signal.SIGTERM)
-        stdout, stderr = process.communicate(timeout=60)
+        stdout, stderr = process.communicate(timeout=60 * SLOWER)
         self.assertEqual((process.returncode, stdout), (4, ""))
         self.assertRegex(stderr, r"\Alanescape: interrupted[^\n]*\n\Z")
         self.assertFalse((self.folder / "run").exists())

@@ -17,7 +17,7 @@ FULL = ("--model", "lennard-jones", "--cutoff", "3", "--truncation", "tail", "--
 
 
 def insert(*arguments):
-    run = subprocess.run([PROGRAM, "insert", *FULL, *map(str, arguments)], capture_output=True, text=True, timeout=300)
+    run = subprocess.run([PROGRAM, "insert", *FULL, *map(str, arguments)], capture_output=True, text=True, timeout=1200)
     assert run.returncode == 0, run.stderr
     return json.loads(run.stdout)
 
