@@ -93,14 +93,19 @@ double StateMixtureModel::reach(std::size_t s, std::size_t t) const {
   return reach;
 }
 
-// That of the largest Lennard-Jones sigma; where there are tables only, of a sigma whose usual cutoff is the largest reach.
+// That of the largest Lennard-Jones sigma; where there are tables only, of a sigma whose usual cutoff is the largest reach. Entries
+// of states that a species does not have are no sizes.
 double StateMixtureModel::largest_size() const {
   constexpr double usual_cutoff = 2.5;
   double largest = 0.0, reach_of_any = 0.0;
-  for (const Potential& potential : potentials)
-    if (const auto* lj = std::get_if<LennardJones>(&potential)) largest = std::max(largest, lj->sigma);
-  for (std::size_t k = 0; k < filter.size(); ++k)
-    reach_of_any = std::max(reach_of_any, reach(k / species.size(), k % species.size()));
+  for (std::size_t s = 0; s < species.size(); ++s)
+    for (std::size_t t = 0; t < species.size(); ++t) {
+      reach_of_any = std::max(reach_of_any, reach(s, t));
+      for (std::size_t a = 0; a < states_of(s); ++a)
+        for (std::size_t b = 0; b < states_of(t); ++b)
+          if (const auto* lj = std::get_if<LennardJones>(&potentials[potential_at(s, a, t, b)]))
+            largest = std::max(largest, lj->sigma);
+    }
   return largest > 0.0 ? largest : reach_of_any / usual_cutoff;
 }
 

@@ -22,8 +22,9 @@ class RandomSphereSystems : private RandomDraws {
  public:
   using RandomDraws::RandomDraws;
 
-  RandomSpheres make() {
-    const double unit = std::pow(10.0, between(-12.0, 12.0));
+  // The unit is 10^-decades to 10^decades.
+  RandomSpheres make(double decades = 12.0) {
+    const double unit = std::pow(10.0, between(-decades, decades));
     RandomSpheres made{{}, 1 + below(5), 0.0, true};
     const std::size_t wanted = chance(0.005) ? 500 + below(1500) : chance(0.2) ? 100 + below(200) : 1 + below(60);
     const std::vector<double> radii = sizes(made.species, wanted, unit);

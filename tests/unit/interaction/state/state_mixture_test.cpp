@@ -322,6 +322,15 @@ TEST(StateMixture, OverlapsAndFarReachesAreRefused) {
   EXPECT_NE(testing::refusal([&] { check_cutoff(liquid_vapour(), {{0.2, 5.0, 5.0}}); }).find("images"), std::string::npos);
 }
 
+TEST(StateMixture, StatesThatASpeciesDoesNotHaveLeaveTheUnitOfLengthAlone) {
+  StateMixtureModel model = state_mixture_model({2, 3}).in_unit(0x1p30);
+  ASSERT_EQ(model.states_of(1), 2U);
+  const double unit = model.length_unit();
+  EXPECT_LT(unit, 0x1p-29);
+  model.potentials[model.potential_at(1, 2, 1, 2)] = StateMixtureModel::LennardJones{0.0, 1.0};
+  EXPECT_EQ(model.length_unit(), unit);
+}
+
 TEST(StateMixture, UnitsOfLengthThatArePowersOfTwoChangeNoBit) {
   const Configuration fluid = state_mixture_fluid(64, 1);
   const auto in_unit = [&](double unit) {
