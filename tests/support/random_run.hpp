@@ -36,7 +36,7 @@ class RandomRun {
   void for_each(const char* systems, Check check) {
     std::cout << fmt::format("{} from number {} on", systems, first_) << std::endl;
     std::uint64_t made = 0;
-    for (; count_ ? made < *count_ : passed() < *seconds_; ++made) {
+    for (; count_ ? made < *count_ : made < least || passed() < *seconds_; ++made) {
       check(first_ + made, [&](Outcome outcome) { ++outcomes_[static_cast<std::size_t>(outcome)]; });
       if (stops_at_failure_ && ::testing::Test::HasFailure()) break;
     }
@@ -47,6 +47,7 @@ class RandomRun {
   }
 
  private:
+  static constexpr std::uint64_t least = 20;  // systems, however slow they are
   static std::optional<std::uint64_t> number(const char* name) {
     const char* given = std::getenv(name);
     return given != nullptr ? std::optional<std::uint64_t>(std::strtoull(given, nullptr, 10)) : std::nullopt;
