@@ -41,17 +41,21 @@ struct Deviations {
   double energy, virial, gradient;
 };
 
+// Slopes of saturated probabilities are subnormal or zero, and so are forces and virials that follow from them alone.
+constexpr double underflow = 1e-280;
+
 // In units of what is allowed. Rounding of separations changes an energy by at most the forces times it, and a force relative to
 // the least distance of 0.75 units, amplified thirteen times by r^-13. Virials are relative to forces at the longest distance.
 Deviations deviations(const testing::RandomStateMixture& made, const Expected& expected, const StateMixture::Evaluation& found,
                       const std::vector<double>& gradient) {
   const double relative_rounding = 13.0 * expected.rounding / (0.75 * made.unit);
   const double of_energy = tolerance::state_sums * expected.magnitude.magnitude + expected.rounding * expected.forces;
-  const double of_virial = (tolerance::state_sums + relative_rounding) * 0.5 * expected.forces * expected.reach;
+  const double of_virial = (tolerance::state_sums + relative_rounding) * 0.5 * expected.forces * expected.reach + underflow;
   Deviations worst{relative(found.energy, expected.value.energy, of_energy),
                    relative(found.virial, expected.value.virial, of_virial), 0.0};
   for (std::size_t k = 0; k < gradient.size(); ++k) {
-    const double allowed = (tolerance::state_gradient + relative_rounding) * expected.magnitude.gradient_magnitude[k / 3] + 1e-280;
+    const double allowed =
+        (tolerance::state_gradient + relative_rounding) * expected.magnitude.gradient_magnitude[k / 3] + underflow;
     worst.gradient = std::max(worst.gradient, relative(gradient[k], expected.value.gradient[k], allowed));
   }
   for (std::size_t k = 0; k < 6; ++k)
