@@ -49,7 +49,7 @@ Outcome check(std::uint64_t number, Isa isa, const testing::RandomConfiguration&
 }
 
 TEST(RandomConfigurations, AgreeWithTheReferenceOrAreRefused) {
-  testing::RandomRun(8.0).for_each("configurations", [](std::uint64_t number, auto add) {
+  testing::RandomRun(6.5).for_each("configurations", [](std::uint64_t number, auto add) {
     const testing::RandomConfiguration made = testing::RandomConfigurations(number).make();
     const testing::DecidedByRounding rounding(made);
     const reference::Evaluation expected = testing::expected_of(made, rounding);
