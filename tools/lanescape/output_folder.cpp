@@ -20,8 +20,8 @@ OutputFolder::OutputFolder(fs::path path, bool resume) : path_(std::move(path)) 
   prepare_output_folder(path_);
   lock_ = FolderLock(path_);
   fs::create_directories(checkpoints());
-  if (resume)
-    for (const fs::path& folder : {path_, checkpoints()}) remove_unfinished_files(folder);
+  // Of a run that was killed, even before it had written run.toml.
+  for (const fs::path& folder : {path_, checkpoints()}) remove_unfinished_files(folder);
 }
 
 OutputFolder::OutputFolder(OutputFolder&& other) noexcept

@@ -208,22 +208,26 @@ void GapConstraints::exchange(Archive& archive) {
   if (archive.reading())
     for (std::size_t k = 0; k < counts.size(); ++k) segments_[k].assign(counts[k], GapConstraint{});
   std::vector<std::uint64_t> keys;
-  std::vector<double> slacks, multipliers;
+  std::vector<double> slacks, multipliers, shares;
   for (const std::vector<GapConstraint>& segment : segments_)
     for (const GapConstraint& c : segment) {
       keys.push_back(c.key);
       slacks.push_back(c.slack);
       multipliers.push_back(c.multiplier);
+      shares.insert(shares.end(), c.shares.begin(), c.shares.end());
     }
   archive.field("constraint_keys", keys);
   archive.field("slacks", slacks);
   archive.field("multipliers", multipliers);
+  archive.field("shares", shares);
   std::size_t next = 0;
   for (std::vector<GapConstraint>& segment : segments_)
     for (GapConstraint& c : segment) {
       c.key = keys[next];
       c.slack = slacks[next];
-      c.multiplier = multipliers[next++];
+      c.multiplier = multipliers[next];
+      c.shares = {shares[2 * next], shares[2 * next + 1]};
+      ++next;
     }
 }
 
