@@ -219,7 +219,7 @@ LANESCAPE_INLINE void tile_against_all(const PairInput& in, std::size_t a, std::
     const auto u = Form::parameters(pair);
     const bool same = a == b;
     const EdgeLimits limits{i, same ? i / lanes * lanes : 0, block.count, in.blocks[a].count, same};
-    const Columns columns{in.scratch + block.begin, gradient + block.begin,
+    const Columns columns{in.scratch + block.begin, has_gradient(output) ? gradient + block.begin : nullptr,
                           Form::has_diameters ? in.diameters + block.begin : nullptr, in.slots};
     const auto run = [&]<ImageSearch images>(const Box& in_box) __attribute__((always_inline)) {
       tile_against_block<Form, images, output, unit>(columns, block, limits, in_box, u, rows, totals);
