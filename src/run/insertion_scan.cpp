@@ -259,8 +259,10 @@ void InsertionScanOptions::check(const PairModel& model) const {
   check_at_least_one("number of states", states.size());
   if (!(time_step > 0.0 && time_step <= 0.02))
     throw_bad_input(fmt::format("time step {} is not allowed: above 0 and at most 0.02, or energy is not conserved", time_step));
-  if (map_points == 1 || map_points > 4096)
-    throw_bad_input(fmt::format("number of map points {} is not allowed: 0, or 2 to 4096 along each edge", map_points));
+  constexpr std::uint64_t most_map_points = 1000;  // a million rows of map.csv for each state
+  if (map_points == 1 || map_points > most_map_points)
+    throw_bad_input(
+        fmt::format("number of map points {} is not allowed: 0, or 2 to {} along each edge", map_points, most_map_points));
   if (target == ScanTarget::chemical_potential && widom_probes == 0)
     throw_bad_input("a target of the chemical potential needs Widom probes: their number must be at least 1");
   for (const State& state : states) {

@@ -112,7 +112,8 @@ class Insertions(ProgramTest):
             with self.subTest(arguments):
                 self.refused_cleanly("insert", *TAIL, *arguments, says=says)
         self.refused_cleanly("insert", self.fluid, "--model", "hard-sphere", says="hard spheres")
-        self.refused("insert", *TAIL, "--scan", "--map-points", "1", "--out", self.folder / "out", says="map points")
+        for points in ("1", "1001"):
+            self.refused("insert", *TAIL, "--scan", "--map-points", points, "--out", self.folder / "out", says=("map points", points))
         self.assertFalse((self.folder / "out").exists())
 
     def test_a_scan_reports_every_combination_and_state(self):
