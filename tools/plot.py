@@ -48,7 +48,8 @@ Writes into DIR:
   insertion-errors.png     error at an evaluation and at the next one
   insertion-map.png        energy of one more particle over the plane x = 0, at four states at most
 If a density has several temperatures, insertion figures show the temperature with most densities; only the panels against temperature,
-insertion-errors.png and insertion-map.png show all. If there are several largest steps, they show the default, or else the first; insertion-step.png shows all.
+insertion-errors.png and insertion-map.png show all. If there are several largest steps, they show the default, or else the first;
+insertion-step.png shows all.
 
 Exit status: 0; or 2 with one line on stderr if input is missing or cannot be read. Then nothing is drawn.
 Lengths are in sigma, energies in epsilon, temperatures in epsilon/k_B.
